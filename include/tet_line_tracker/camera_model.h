@@ -1,0 +1,77 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "tet_line_tracker/line_segment.h"
+
+namespace tet_line_tracker {
+
+/// What a camera_info or a calibration file says of a lens.
+struct CameraCalibration {
+  std::string model;               ///< distortion model as in sensor_msgs/CameraInfo, e.g. "plumb_bob"
+  int width{0};                    ///< of the calibrated image [px]; 0: not said
+  int height{0};                   ///< of the calibrated image [px]; 0: not said
+  double fx{0.0}, fy{0.0};         ///< focal lengths [px]; fy may be negative (ICL-NUIM)
+  double cx{0.0}, cy{0.0};         ///< principal point [px]
+  std::vector<double> distortion;  ///< coefficients in the order of the model
+};
+
+/// Maps between pixels of the raw image and rays of the camera's optical frame (x right, y down, z forward).
+/// Const after construction: may be shared between threads.
+class CameraModel {
+ public:
+  virtual ~CameraModel() = default;
+
+  const CameraCalibration& calibration() const { return calibration_; }
+
+  /// Pixel at which a point of the optical frame appears; nothing when the model cannot see it (behind the
+  /// camera, or outside the field for which the distortion is invertible). The pixel may lie outside the
+  /// image [px].
+  virtual std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const = 0;
+
+  /// Unit ray of a pixel; nothing when the undistortion does not converge.
+  virtual std::optional<Eigen::Vector3d> unproject(const Eigen::Vector2d& pixel) const = 0;
+
+  /// Undistorted point of a pixel on z = 1; nothing when unproject() gives none, or a ray that does not meet
+  /// z = 1.
+  std::optional<Eigen::Vector2d> normalize(const Eigen::Vector2d& pixel) const;
+
+ protected:
+  explicit CameraModel(CameraCalibration calibration) : calibration_(std::move(calibration)) {}
+
+ private:
+  CameraCalibration calibration_;
+};
+
+/// Model for a calibration. Throws std::invalid_argument that names the field at fault: an unknown model, a
+/// wrong number of coefficients, a value that is not finite, a focal length of zero. Known, with the order of
+/// their coefficients:
+/// - plumb_bob: k1 k2 p1 p2 [k3]; also none at all, an ideal pinhole,
+/// - rational_polynomial: k1 k2 p1 p2 k3 k4 k5 k6 as in OpenCV,
+/// - equidistant: k1 k2 k3 k4 (Kannala-Brandt), rays beyond 90 degrees included,
+/// - mei: xi k1 k2 p1 p2 (omnidirectional), rays beyond 90 degrees included.
+std::shared_ptr<const CameraModel> makeCameraModel(const CameraCalibration& calibration);
+
+/// Smallest z of a unit ray whose point on z = 1 an estimator can use: 84.3 degrees from the axis, 10 units
+/// out. Further out, a pixel of noise moves the point by more than a line is worth.
+constexpr double kMinForward = 0.1;
+
+/// A segment on z = 1, undistorted.
+struct NormalizedSegment {
+  Eigen::Vector2d start;
+  Eigen::Vector2d end;
+  bool cut;  ///< one end was moved to the border of what lies in front
+};
+
+/// The part of a segment in the raw image [px] that lies in front of the camera (z of the rays at least
+/// kMinForward), for lenses with a field of view of more than 180 degrees. A cut end stays in the plane that
+/// the two rays span. Nothing when no end lies in front, or an end cannot be undistorted.
+std::optional<NormalizedSegment> normalizeSegment(const CameraModel& camera, const LineSegment& segment);
+
+}  // namespace tet_line_tracker

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "tet_line_tracker/line_segment.h"
+
+namespace tet_line_tracker {
+
+/// Finds straight segments in one gray image. Not thread-safe: buffers are kept from call to call.
+class LineDetector {
+ public:
+  virtual ~LineDetector() = default;
+
+  /// Name as in the parameter `detector`.
+  virtual std::string name() const = 0;
+
+  /// Replaces `lines` by the segments of `gray` (8-bit, one channel, any stride) that are at least
+  /// `min_length` long [px] after clipping to the pixel centres of the image. The brighter side of every
+  /// segment lies to the left of its direction() on screen, where normal() points. Longest first; the same
+  /// image gives the same lines in the same order. With a `mask` (8-bit, size of `gray`; empty: everything)
+  /// only segments that lie mostly where it is not zero are given. Throws std::invalid_argument when type or
+  /// size do not fit; an empty image has no lines.
+  void detect(const cv::Mat& gray, float min_length, std::vector<LineSegment>& lines,
+              const cv::Mat& mask = cv::Mat());
+
+ private:
+  /// Appends segments to `lines`, brighter side to the left. `gray` and `mask` are of the promised type and
+  /// size. Short, hidden and overhanging segments may be among them: detect() sees to these.
+  virtual void find(const cv::Mat& gray, float min_length, const cv::Mat& mask,
+                    std::vector<LineSegment>& lines) = 0;
+};
+
+/// Detectors that work with the OpenCV at hand, found by trying them (`edge`, our own, needs nothing of it):
+/// cv::createLineSegmentDetector throws on
+/// OpenCV 4.1.0 to 4.5.3. Best first.
+std::vector<std::string> availableDetectors();
+
+/// Detector by name; "auto" takes the first available one. Throws std::invalid_argument that names the
+/// detector, the OpenCV version and the detectors that do work.
+std::unique_ptr<LineDetector> makeLineDetector(const std::string& name);
+
+}  // namespace tet_line_tracker

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "tet_line_tracker/line_segment.h"
+#include "tet_line_tracker/parameters.h"
+
+namespace tet_line_tracker {
+
+/// A segment after the fit to the edge under it.
+struct EdgeFit {
+  LineSegment segment;   ///< start and end in their roles [px]
+  float support{0.0F};   ///< share of the samples along the segment that lie on the edge, 0..1
+  float contrast{0.0F};  ///< median slope of the gray values across the edge, positive where the left side on
+                         ///< screen is brighter [gray / px]
+  float sigma_px{0.0F};  ///< standard deviation of the position along the normal [px]
+};
+
+/// Puts a line on the edge under it: looks for the steepest place of the right polarity on profiles across
+/// the line, fits a straight line through them that single wrong samples do not pull away, and says how much
+/// of the line has an edge. Keeps endpoint flow from drifting. Const and thread-safe.
+class LineRefiner {
+ public:
+  explicit LineRefiner(const LineRefinerParameters& parameters) : parameters_(parameters) {}
+
+  /// Contrast of the edge under `line` as it lies, of any polarity [gray / px].
+  float contrastOf(const cv::Mat& gray, const LineSegment& line) const;
+
+  /// Fits `line` to the edge near it whose contrast has the sign and about the size of `contrast` [gray /
+  /// px]. `gray`: 8-bit, one channel. A line with too little support comes back as it was, with its support.
+  EdgeFit fit(const cv::Mat& gray, const LineSegment& line, float contrast) const;
+
+ private:
+  LineRefinerParameters parameters_;
+};
+
+}  // namespace tet_line_tracker

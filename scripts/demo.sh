@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# Builds if needed and shows lines being tracked in a simulated flight, which is rendered once and kept under build/.
+#
+#   scripts/demo.sh [--headless]
+#
+# In rviz where there is a display. --headless plays the flight once and ends with a summary of the tracks.
+set -euo pipefail
+. "$(dirname "$0")/environment.sh"
+
+headless=false
+if [ -z "${DISPLAY:-}" ]; then headless=true; fi
+for argument in "$@"; do
+  case $argument in
+    --headless) headless=true ;;
+    --help | -h) sed -n '2,6s/^# \{0,1\}//p' scripts/demo.sh && exit ;;
+    *) fail "unknown option $argument; see --help" ;;
+  esac
+done
+
+requirePackages "${packages_build[@]}" "${packages_run[@]}"
+if ! $headless; then requirePackages "${packages_rviz[@]}"; fi
+requireLocalhost
+scripts/build.sh
+sourceSetup "$build/devel/setup.bash"
+tools=$build/devel/lib/tet_line_tracker
+
+requireFlight
+demo=$build/demo
+
+if ! $headless; then
+  chooseMaster
+  echo "To look at topics from another terminal: export ROS_MASTER_URI=$ROS_MASTER_URI"
+  exec roslaunch -p "${ROS_MASTER_URI##*:}" tet_line_tracker demo.launch bag:="$flight"
+fi
+
+startMaster
+tracks=$demo/tracks.bag
+rm -f "$tracks" "$tracks.active"
+rosrun rosbag record -q -O "$tracks" /line_tracker/lines >"$demo/record.log" 2>&1 &
+recorder=$!
+children+=($recorder)
+echo "Playing the flight through the node ..."
+roslaunch --wait tet_line_tracker demo.launch bag:="$flight" rviz:=false </dev/null >"$demo/launch.log" 2>&1 ||
+  { tail -n 30 "$demo/launch.log" >&2; fail "the node or the player ended with an error (build/demo/launch.log)"; }
+kill -INT $recorder
+wait $recorder || true
+[ -e "$tracks" ] || { tail -n 30 "$demo/launch.log" >&2; fail "the node published no lines (build/demo/launch.log)"; }
+
+"$tools/check_lines" "$tracks"
+"$tools/evaluate_tracks" "$tracks" | awk '
+  NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i }
+  NR == 2 { images = $column["images"]; lines = $column["lines"]; length_of_track = $column["length"] }
+  END {
+    printf "%s images, %s lines per image, mean track length %s images\n", images, lines, length_of_track
+    exit !(images > 0 && lines > 0)
+  }'

@@ -1,0 +1,105 @@
+# What every script here starts with; sourced. Leaves the caller in the root of the project.
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+project=$PWD
+build=$project/build
+
+# ROS tools need the distribution's python3, also where pyenv or conda put another one first.
+export PATH=/usr/sbin:/usr/bin:/sbin:/bin:$PATH
+# Without these a host name that does not resolve stops every node, and logs appear only at the end.
+export ROS_HOSTNAME=${ROS_HOSTNAME:-localhost} ROSCONSOLE_STDOUT_LINE_BUFFERED=1
+
+. scripts/packages.sh
+
+fail() {
+  echo "$(basename "$0"): $1" >&2
+  exit 1
+}
+
+# The setup files of ROS read unset variables.
+sourceSetup() {
+  set +u
+  . "$1"
+  set -u
+}
+
+if [ -e /opt/ros/noetic/setup.bash ]; then
+  sourceSetup /opt/ros/noetic/setup.bash
+  export PATH=/usr/sbin:/usr/bin:/sbin:/bin:$PATH
+fi
+
+# Installs those of the named Debian packages that are missing.
+requirePackages() {
+  local installed package missing=() as_root=() log=$build/install.log
+  command -v dpkg-query >/dev/null || fail "this is no Debian or Ubuntu: install the packages of scripts/packages.sh by hand"
+  installed=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "$@" 2>/dev/null | sed -n 's/^installed //p') || true
+  for package in "$@"; do
+    grep -qxF "$package" <<<"$installed" || missing+=("$package")
+  done
+  [ ${#missing[@]} -gt 0 ] || return 0
+
+  if [ "$(id -u)" != 0 ]; then
+    command -v sudo >/dev/null || fail "install these packages as root, then start again: ${missing[*]}"
+    as_root=(sudo)
+    if [ "${CI:-}" = true ]; then as_root+=(-n); fi
+  fi
+  as_root+=(env DEBIAN_FRONTEND=noninteractive)
+  echo "Installing ${#missing[@]} packages and what they need: ${missing[*]}"
+  mkdir -p "$build"
+  if ! compgen -G '/var/lib/apt/lists/*_Packages*' >/dev/null; then
+    "${as_root[@]}" apt-get update </dev/null >"$log" 2>&1 || fail "apt-get update failed: $(tail -n 1 "$log")"
+  fi
+  if ! "${as_root[@]}" apt-get install -y --no-install-recommends "${missing[@]}" </dev/null >"$log" 2>&1; then
+    # Package lists may be older than the archive.
+    "${as_root[@]}" apt-get update </dev/null >>"$log" 2>&1 || true
+    "${as_root[@]}" apt-get install -y --no-install-recommends "${missing[@]}" </dev/null >>"$log" 2>&1 ||
+      fail "apt-get could not install ${missing[*]}: $(grep '^E:' "$log" | tail -n 1) (all of it: build/install.log)"
+  fi
+}
+
+requireLocalhost() {
+  getent hosts localhost >/dev/null ||
+    fail "the name localhost does not resolve, and ROS needs it: add the line '127.0.0.1 localhost' to /etc/hosts"
+}
+
+# Builds the named targets with sanitizers.
+sanitized=$build/sanitized
+buildSanitized() {
+  requirePackages "${packages_build[@]}" "${packages_test[@]}"
+  mkdir -p "$sanitized/devel/lib/python3/dist-packages"
+  if [ ! -e "$sanitized/build.ninja" ]; then
+    cmake -S . -B "$sanitized" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCATKIN_ENABLE_TESTING=ON -DTET_FUZZ=ON \
+      -DCMAKE_CXX_FLAGS="-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer" \
+      >"$build/sanitized/configure.log" 2>&1 || { cat "$sanitized/configure.log" >&2; fail "CMake could not configure the sanitized build"; }
+  fi
+  cmake --build "$sanitized" --target "$@"
+  export UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1
+}
+
+# Renders the flight of demo.sh and soak.sh, once. Needs the build.
+flight=$build/demo/flight.bag
+requireFlight() {
+  [ -e "$flight" ] && return
+  mkdir -p "$build/demo"
+  echo "Simulating a flight, once ..."
+  "$build/devel/lib/tet_line_tracker/simulate_bag" "$flight" --seconds 10
+}
+
+# Starts a master on a free port, so that parameters and topics of somebody else's stay as they are. Whatever is in
+# `children` ends with the script.
+children=()
+stopChildren() {
+  for child in "${children[@]}"; do kill -INT "$child" 2>/dev/null || true; done
+  wait
+}
+chooseMaster() {
+  local port
+  port=$(python3 -c 'import socket; s = socket.socket(); s.bind(("localhost", 0)); print(s.getsockname()[1])')
+  export ROS_MASTER_URI=http://localhost:$port
+}
+startMaster() {
+  chooseMaster
+  trap stopChildren EXIT
+  roscore -p "${ROS_MASTER_URI##*:}" >"$build/roscore.log" 2>&1 &
+  children+=($!)
+}

@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# Judges the trackers on simulated flights of every regime: the tables "Every regime" and "Part by part" of docs/benchmarks.md.
+#
+#   scripts/measure_tracking.sh RESULTS [SEEDS [SECONDS]]
+#
+# RESULTS: folder for bags and tables; bags that are there are used again. SEEDS: one or more in quotes ("1 2"). SECONDS: of a flight (20).
+set -euo pipefail
+case ${1:-} in
+  --help | -h | "") sed -n '2,6s/^# \{0,1\}//p' "$0" && exit ;;
+esac
+mkdir -p "$1"
+results=$(cd "$1" && pwd)
+seeds=${2:-1}
+seconds=${3:-20}
+. "$(dirname "$0")/environment.sh"
+scripts/build.sh
+sourceSetup "$build/devel/setup.bash"
+tools=$build/devel/lib/tet_line_tracker
+
+declare -A flights=(
+  [slow]="--motion slow" [fast]="--motion fast" [corridor]="--motion corridor" [low]="--motion slow --light low"
+  [gain]="--motion slow --light gain_jumps" [shake]="--motion shake" [rotation]="--motion rotation"
+  [moving]="--motion slow --moving-object" [all]="--motion fast --light low,gain_jumps")
+regimes="slow fast corridor low gain shake rotation moving all"
+
+# judge NAME REGIMES [track_bag options]: tracks the flights and prints one table.
+judge() {
+  local name=$1 tracked=() flight
+  local chosen=$2
+  shift 2
+  for regime in $chosen; do
+    for seed in $seeds; do
+      flight=$results/$regime-$seed.bag
+      # The regime's words are options.
+      # shellcheck disable=SC2086
+      [ -e "$flight" ] || "$tools/simulate_bag" "$flight" ${flights[$regime]} --seconds "$seconds" --seed "$seed"
+      "$tools/track_bag" "$flight" "$results/$regime-$seed-$name.bag" --times "$@" >"$results/$regime-$seed-$name.txt"
+      tracked+=("$results/$regime-$seed-$name.bag")
+    done
+  done
+  echo "== $name $*"
+  "$tools/evaluate_tracks" "${tracked[@]}"
+}
+
+{
+  judge joint "$regimes"
+  judge lk_endpoints "$regimes" --tracker lk_endpoints
+  judge lsd_lbd_knn "$regimes" --tracker lsd_lbd_knn
+  hard="fast corridor gain shake"
+  judge no_prior "$hard" --set prior=none
+  judge no_joint_endpoints "$hard" --set joint_endpoints=false --set finest_level=0
+  judge no_gain_and_offset "$hard" --set gain_and_offset=false
+  judge no_robust_patches "$hard" --set robust_patches=false
+  judge no_refine "$hard" --set refine=false --set finest_level=0
+  judge with_fit_ends "$hard" --set fit_ends=true
+  judge image_prior "$hard" --set prior=image
+  judge no_parallax "$hard" --set keep_parallax=false
+} | tee "$results/tables.txt"

@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# Builds the tests of the core with AddressSanitizer and UndefinedBehaviorSanitizer in build/sanitized and runs them.
+#
+#   scripts/sanitize.sh [TEST ...]
+#
+# TEST: names of test programs of the core; none: all in test/core.
+set -euo pipefail
+. "$(dirname "$0")/environment.sh"
+
+tests=("$@")
+if [ ${#tests[@]} -eq 0 ]; then mapfile -t tests < <(basename -s .cpp test/core/*.cpp); fi
+buildSanitized "${tests[@]}"
+for test in "${tests[@]}"; do
+  echo "$test ..."
+  "$sanitized/devel/lib/tet_line_tracker/$test" --gtest_brief=1 </dev/null
+done
+echo "sanitizers: ${#tests[@]} test programs, nothing found"

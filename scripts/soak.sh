@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Runs the node on a flight that is played again and again, and fails when its memory grows or its lines stop.
+#
+#   scripts/soak.sh [MINUTES]
+set -euo pipefail
+. "$(dirname "$0")/environment.sh"
+
+requirePackages "${packages_build[@]}" "${packages_run[@]}"
+requireLocalhost
+scripts/build.sh
+sourceSetup "$build/devel/setup.bash"
+requireFlight
+
+startMaster
+"$build/devel/lib/tet_line_tracker/line_tracker" image:=/cam0/image_raw camera_info:=/cam0/camera_info \
+  >"$build/soak.log" 2>&1 &
+node=$!
+# The stamps jump back at every turn: each is an epoch of its own.
+rosrun rosbag play --quiet --loop --rate 2 "$flight" >"$build/soak_player.log" 2>&1 &
+children+=($node $!)
+python3 scripts/watch_memory.py $node "${1:-30}" </dev/null

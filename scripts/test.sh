@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# Builds if needed and runs every test and check; the exit status and the last line say the result.
+#
+#   scripts/test.sh [--no-lint] [NAME]
+#
+# NAME, a regular expression, picks among the test programs of CTest.
+set -euo pipefail
+. "$(dirname "$0")/environment.sh"
+
+lint=lint
+pick=()
+for argument in "$@"; do
+  case $argument in
+    --no-lint) lint=no-lint ;;
+    --help | -h) sed -n '2,6s/^# \{0,1\}//p' scripts/test.sh && exit ;;
+    -*) fail "unknown option $argument; see --help" ;;
+    *) pick=(-R "$argument") lint=no-lint ;;
+  esac
+done
+
+scripts/build.sh --tests
+if [ $lint = lint ]; then requirePackages "${packages_lint[@]}"; fi
+requireLocalhost
+sourceSetup "$build/devel/setup.bash"
+
+rm -rf "$build/test_results"
+status=0
+# One at a time: rostests share the processors with the nodes they judge. rostest picks a free port for its master.
+(cd "$build" && ctest -j1 --timeout 600 --output-on-failure "${pick[@]}" </dev/null) || status=1
+if [ $lint = lint ]; then python3 scripts/lint.py "$build" || status=1; fi
+python3 scripts/count_tests.py "$build" $lint "${pick[@]}" || status=1
+exit $status

@@ -1,0 +1,223 @@
+#include "tet_line_tracker/endpoint_tracker.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "patch_flow.h"
+#include "patch_reader.h"
+
+namespace tet_line_tracker {
+namespace {
+
+constexpr float kGrayRange = 255.0F;  // gray thresholds are on [0, 1]
+
+/// Below this determinant of the mean gradient matrix [gray^4 / px^4] an endpoint alone is not fixed in both
+/// directions.
+constexpr float kMinDeterminant = 1e-4F;
+
+/// The joint estimate ends its iterations below these steps [px of the level]: what is left, the level below
+/// finds, and after the finest one the edge.
+constexpr float kCoarseStep = 0.1F;
+constexpr float kFineStep = 0.03F;
+
+/// On one pyramid level, in windows: beyond it nothing in the gradients speaks of the place.
+constexpr float kMaxMovement = 1.0F;
+
+/// The joint estimate holds an endpoint where it is expected as strongly as this much gray noise would blur
+/// its place [gray^2 / px^2 per pixel]: it decides only where no texture does, above all along the edge.
+constexpr float kExpectationWeight = 1.0F;
+
+}  // namespace
+
+struct LineTemplate::Content {
+  kernels::PatchShape shape{};
+  std::vector<float> pixels;
+  std::vector<PatchRow> levels;
+
+  Content(const kernels::PatchShape& patch_shape, std::size_t level_count, std::size_t patches_per_level)
+      : shape(patch_shape),
+        pixels(level_count * patches_per_level * 3 * static_cast<std::size_t>(patch_shape.floats())),
+        levels(level_count) {
+    float* next = pixels.data();
+    const auto take = [&next, this] {
+      float* taken = next;
+      next += shape.floats();
+      return taken;
+    };
+    for (PatchRow& level : levels) {
+      level.patches.resize(patches_per_level);
+      for (Patch& patch : level.patches) {
+        patch.reference.gray = take();
+        patch.reference.gradient_x = take();
+        patch.reference.gradient_y = take();
+      }
+    }
+  }
+};
+
+LineTemplate::LineTemplate() = default;
+LineTemplate::~LineTemplate() = default;
+LineTemplate::LineTemplate(LineTemplate&&) noexcept = default;
+LineTemplate& LineTemplate::operator=(LineTemplate&&) noexcept = default;
+
+namespace {
+
+/// The iterations on one pyramid level.
+class LevelFlow {
+ public:
+  LevelFlow(const EndpointTrackerParameters& parameters, const PatchRow& row, const cv::Mat& image)
+      : parameters_(parameters),
+        row_(row),
+        image_(image),
+        shape_(kernels::PatchShape::ofSide(parameters.window_px)),
+        pixels_(static_cast<float>(shape_.side * shape_.side)),
+        bounds_(ImageBounds::ofImage(image.cols, image.rows)),
+        reader_(shape_.side) {}
+
+  /// Moves `segment` [px of the level] from where it is expected to where it is. `with_residual`: also says
+  /// how well the gray values match, on [0, 1].
+  EndpointFlow::Status follow(bool finest, LineSegment& segment, float& residual) {
+    using Status = EndpointFlow::Status;
+    const bool joint = parameters_.joint_endpoints;
+    const LineSegment expected = segment;
+    const float max_movement = kMaxMovement * static_cast<float>(shape_.side);
+    for (int iteration = 0;; ++iteration) {
+      if (!matchPatches(segment, finest || !joint)) return Status::kOutside;
+      if (parameters_.robust_patches) weigh(matches_.data(), count_);
+      NormalEquations equations;
+      for (std::size_t i = 0; i < count_; ++i) equations.add(matches_[i]);
+      if (joint) {
+        equations.hold(segment, expected, kExpectationWeight * pixels_);
+      } else if (std::min(equations.determinantOfEndpoint(0), equations.determinantOfEndpoint(1)) <=
+                 kMinDeterminant * pixels_ * pixels_) {
+        return Status::kNoSolution;
+      }
+      residual = joint ? meanResidual() : largestResidual();
+      const bool matched = residual < parameters_.max_residual;
+      const auto [start_step, end_step] = equations.solve();
+      // Paper, termination condition, with the step beside the residual: on smooth texture the residual alone
+      // is small long before the sub-pixel position is found.
+      const float largest_step = std::sqrt(std::max(start_step.squaredNorm(), end_step.squaredNorm()));
+      const bool converged = joint ? largest_step < (finest ? kFineStep : kCoarseStep)
+                                   : largest_step < parameters_.min_step && matched;
+      if (converged || iteration == parameters_.max_iterations) {
+        return matched ? Status::kTracked : Status::kHighResidual;
+      }
+      segment.start += start_step;
+      segment.end += end_step;
+      // Written so that it also holds for what is not a number.
+      if (!((segment.start - expected.start).norm() <= max_movement &&
+            (segment.end - expected.end).norm() <= max_movement)) {
+        return Status::kNoSolution;
+      }
+    }
+  }
+
+ private:
+  /// False when too little of the line is in the image.
+  bool matchPatches(const LineSegment& segment, bool with_residual) {
+    count_ = 0;
+    for (std::size_t i = 0; i < row_.count; ++i) {
+      const Patch& patch = row_.patches[i];
+      const Eigen::Vector2f centre = segment.at(patch.fraction);
+      if (!bounds_.contains(centre)) {
+        // The paper follows two points: both must be seen. The joint estimate goes on with the patches that
+        // are.
+        if (!parameters_.joint_endpoints) return false;
+        continue;
+      }
+      kernels::AlignmentSums sums{};
+      const float* gray = reader_.align(image_, centre, patch.reference, &sums);
+      PatchMatch& match = matches_[count_++];
+      match = matchOf(patch, sums, pixels_, parameters_.gain_and_offset);
+      if (!with_residual) continue;
+      const float gain = parameters_.gain_and_offset ? gainOf(patch.reference, sums) : 1.0F;
+      const float offset = parameters_.gain_and_offset ? sums.i / pixels_ : 0.0F;
+      match.difference = kernels::active().absoluteDifference(gray, shape_, patch.reference, gain, offset) /
+                         (pixels_ * gain);
+    }
+    return count_ > 0;
+  }
+
+  float largestResidual() const {
+    float largest = 0.0F;
+    for (std::size_t i = 0; i < count_; ++i) largest = std::max(largest, matches_[i].difference);
+    return largest / kGrayRange;
+  }
+
+  float meanResidual() const {
+    float sum = 0.0F;
+    float weights = 1e-6F;
+    for (std::size_t i = 0; i < count_; ++i) {
+      sum += matches_[i].weight * matches_[i].difference;
+      weights += matches_[i].weight;
+    }
+    return sum / (weights * kGrayRange);
+  }
+
+  const EndpointTrackerParameters& parameters_;
+  const PatchRow& row_;
+  const cv::Mat& image_;
+  kernels::PatchShape shape_;
+  float pixels_;
+  ImageBounds bounds_;
+  PatchReader reader_;
+  std::array<PatchMatch, kMaxPatches> matches_;
+  std::size_t count_{0};
+};
+
+}  // namespace
+
+EndpointTracker::EndpointTracker(const EndpointTrackerParameters& parameters) : parameters_(parameters) {}
+
+void EndpointTracker::describe(const ImagePyramid& first, const LineSegment& segment,
+                               LineTemplate& patches) const {
+  const kernels::PatchShape shape = kernels::PatchShape::ofSide(parameters_.window_px);
+  const std::size_t level_count =
+      static_cast<std::size_t>(std::min(first.levels(), parameters_.pyramid_levels));
+  const std::size_t capacity =
+      parameters_.joint_endpoints ? static_cast<std::size_t>(parameters_.max_patches) : 2;
+  if (!patches.content_ || patches.content_->levels.size() != level_count) {
+    patches.content_ = std::make_unique<LineTemplate::Content>(shape, level_count, capacity);
+  }
+  PatchReader reader(shape.side + 2);
+  const std::size_t finest = std::min(level_count - 1, static_cast<std::size_t>(parameters_.finest_level));
+  for (std::size_t j = finest; j < level_count; ++j) {
+    const float scale = ImagePyramid::scale(static_cast<int>(j));
+    PatchRow& row = patches.content_->levels[j];
+    const float spacings =
+        std::ceil(scale * segment.length() / static_cast<float>(parameters_.patch_spacing));
+    row.count = std::clamp(static_cast<std::size_t>(1.0F + spacings), std::size_t{2}, capacity);
+    for (std::size_t i = 0; i < row.count; ++i) {
+      Patch& patch = row.patches[i];
+      patch.fraction = static_cast<float>(i) / static_cast<float>(row.count - 1);
+      const Eigen::Vector2f centre = scale * segment.at(patch.fraction);
+      kernels::active().makeTemplate(reader.read(first.level(static_cast<int>(j)), centre), shape,
+                                     parameters_.gain_and_offset, &patch.reference);
+    }
+  }
+}
+
+EndpointFlow EndpointTracker::track(const LineTemplate& patches, const ImagePyramid& second,
+                                    const LineSegment& expected) const {
+  EndpointFlow flow;
+  if (!patches.content_) return flow;
+  const LineTemplate::Content& content = *patches.content_;
+  flow.segment = expected;
+  const int coarsest = std::min(second.levels(), static_cast<int>(content.levels.size())) - 1;
+  const int finest = std::min(coarsest, parameters_.finest_level);
+  for (int j = coarsest; j >= finest; --j) {
+    const float scale = ImagePyramid::scale(j);
+    LineSegment at_level{scale * flow.segment.start, scale * flow.segment.end};
+    LevelFlow level(parameters_, content.levels[static_cast<std::size_t>(j)], second.level(j));
+    flow.status = level.follow(j == finest, at_level, flow.residual);
+    const bool poor_but_coarse = flow.status == EndpointFlow::Status::kHighResidual && j > finest;
+    if (flow.status != EndpointFlow::Status::kTracked && !poor_but_coarse) return flow;
+    flow.segment = {at_level.start / scale, at_level.end / scale};
+  }
+  return flow;
+}
+
+}  // namespace tet_line_tracker

@@ -1,0 +1,406 @@
+#include "tet_line_tracker/line_tracker.h"
+
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "mask.h"
+#include "new_line_chooser.h"
+#include "stopwatch.h"
+#include "tet_line_tracker/endpoint_tracker.h"
+#include "tet_line_tracker/image_pyramid.h"
+#include "tet_line_tracker/line_detector.h"
+#include "tet_line_tracker/line_refiner.h"
+#include "tet_line_tracker/motion_prior.h"
+#include "tet_line_tracker/stream_gate.h"
+#include "worker_pool.h"
+
+namespace tet_line_tracker {
+namespace {
+
+const LineTrackerParameters& checked(const LineTrackerParameters& parameters) {
+  std::string sentences;
+  for (const std::string& broken : check(parameters)) sentences += (sentences.empty() ? "" : "; ") + broken;
+  if (!sentences.empty()) throw std::invalid_argument(sentences);
+  return parameters;
+}
+
+/// What a line looked like in the last image.
+struct Appearance {
+  LineTemplate patches;
+  float contrast{0.0F};  ///< across the edge [gray / px]
+  /// Movement of both ends beyond what the rotation of the camera explains, from the image before [px]:
+  /// parallax, which goes on as it was.
+  Eigen::Vector2f start_parallax{Eigen::Vector2f::Zero()};
+  Eigen::Vector2f end_parallax{Eigen::Vector2f::Zero()};
+};
+
+/// Tracks this near to each other follow the same edge.
+constexpr SameEdgeLimits kDuplicateLimits{0.05F, 1.5F, 0.3F};
+
+/// Share of the cells of an 8x6 grid over the image that a line crosses.
+float coverageOf(const std::vector<TrackedLine>& lines, int width, int height) {
+  constexpr int kColumns = 8;
+  constexpr int kRows = 6;
+  std::bitset<kColumns * kRows> crossed;
+  for (const TrackedLine& line : lines) {
+    // Steps of a quarter of the smaller cell side miss only corners that a line barely touches.
+    const float cell = std::min(static_cast<float>(width) / kColumns, static_cast<float>(height) / kRows);
+    const int steps = 1 + static_cast<int>(4.0F * line.segment.length() / cell);
+    for (int i = 0; i <= steps; ++i) {
+      const Eigen::Vector2f p = line.segment.at(static_cast<float>(i) / static_cast<float>(steps));
+      const int column =
+          std::clamp(static_cast<int>(p.x() * kColumns / static_cast<float>(width)), 0, kColumns - 1);
+      const int row = std::clamp(static_cast<int>(p.y() * kRows / static_cast<float>(height)), 0, kRows - 1);
+      crossed.set(static_cast<std::size_t>(row * kColumns + column));
+    }
+  }
+  return static_cast<float>(crossed.count()) / static_cast<float>(crossed.size());
+}
+
+}  // namespace
+
+class LineTracker::Implementation {
+ public:
+  explicit Implementation(const LineTrackerParameters& parameters)
+      : parameters_(checked(parameters)),
+        in_force_(parameters.method == "paper" ? asPublished(parameters) : parameters),
+        gate_(parameters.stream),
+        endpoint_tracker_(in_force_.flow),
+        prior_(in_force_.motion),
+        refiner_(in_force_.refiner),
+        detector_(makeLineDetector(parameters.detection.detector)),
+        workers_(parameters.threads) {}
+
+  const LineFrame* process(const cv::Mat& gray, std::int64_t stamp_ns);
+  std::size_t reset();
+  void setCamera(std::shared_ptr<const CameraModel> camera) {
+    prior_.setCamera(camera);
+    camera_ = std::move(camera);
+  }
+  void setMask(const cv::Mat& mask);
+  MotionPrior& prior() { return prior_; }
+  const LineTrackerParameters& parameters() const { return parameters_; }
+  std::string detectorName() const { return detector_->name(); }
+
+ private:
+  void trackLines(const MotionPrediction& prediction);
+  /// Why the line cannot go on, or kCount.
+  /// Touches nothing but the line and its appearance: lines are followed side by side.
+  LossReason follow(const MotionPrediction& prediction, TrackedLine& line, Appearance& appearance) const;
+  static void keepParallax(const LineSegment& turned, const LineSegment& found, Appearance& appearance);
+  bool isPlausible(const LineSegment& expected, const LineSegment& found) const;
+  void dropDuplicates();
+  bool detectionIsDue();
+  void addLines(const cv::Mat& gray);
+  void describeLines();
+  void normalizeEndpoints();
+
+  LineTrackerParameters parameters_;  ///< as given
+  LineTrackerParameters in_force_;    ///< what the method makes of them
+  StreamGate gate_;
+  EndpointTracker endpoint_tracker_;
+  MotionPrior prior_;
+  LineRefiner refiner_;
+  std::unique_ptr<LineDetector> detector_;
+  std::shared_ptr<const CameraModel> camera_;
+  cv::Mat mask_;           ///< as given
+  cv::Mat mask_in_force_;  ///< empty for images of another size
+
+  ImagePyramid pyramid_;
+  ImageBounds bounds_;
+  LineFrame frame_;
+  /// Of frame_.lines, in their order; more may wait at the end for reuse.
+  std::vector<Appearance> appearances_;
+  std::vector<LossReason> reasons_;  ///< of the lines of the image before
+  WorkerPool workers_;
+  std::size_t lines_after_detection_{0};
+  float coverage_after_detection_{0.0F};
+  int images_since_detection_{0};
+  std::vector<LineSegment> tracked_segments_;
+  std::vector<LineSegment> candidates_;
+  std::uint64_t next_id_{0};
+  bool any_epoch_{false};
+  StreamGate::Dropped dropped_before_epoch_;
+};
+
+const LineFrame* LineTracker::Implementation::process(const cv::Mat& gray, std::int64_t stamp_ns) {
+  if (gray.empty() || gray.type() != CV_8UC1) {
+    throw std::invalid_argument("image is " + std::to_string(gray.cols) + "x" + std::to_string(gray.rows) +
+                                " of OpenCV type " + std::to_string(gray.type()) +
+                                ", needs 8-bit gray (type 0)");
+  }
+  const StreamVerdict verdict = gate_.admit(stamp_ns, gray.cols, gray.rows);
+  if (verdict != StreamVerdict::kTrack && verdict != StreamVerdict::kNewEpoch) return nullptr;
+
+  Stopwatch total;
+  Stopwatch stage;
+  if (verdict == StreamVerdict::kNewEpoch) {
+    if (any_epoch_) ++frame_.epoch;
+    any_epoch_ = true;
+    frame_.image_count = 0;
+    frame_.lines.clear();
+    prior_.reset();
+    dropped_before_epoch_ = gate_.dropped();
+  }
+  ++frame_.image_count;
+  frame_.stamp_ns = stamp_ns;
+  frame_.width = gray.cols;
+  frame_.height = gray.rows;
+  frame_.detected = false;
+  frame_.statistics = FrameStatistics{};
+  FrameStatistics& statistics = frame_.statistics;
+  bounds_ = ImageBounds::ofImage(gray.cols, gray.rows, static_cast<float>(parameters_.detection.border));
+  mask_in_force_ = mask_.size() == gray.size() ? mask_ : cv::Mat();
+
+  pyramid_.build(gray, std::max(in_force_.flow.pyramid_levels,
+                                in_force_.motion.prior == "none" ? 1 : MotionPrior::kPyramidLevels));
+  statistics.pyramid_ms = stage.lap();
+  const MotionPrediction prediction = prior_.predict(pyramid_, stamp_ns);
+  statistics.prior = prediction.sourceName();
+  statistics.prior_rotation = static_cast<float>(prediction.angle());
+  statistics.prior_ms = stage.lap();
+  trackLines(prediction);
+  dropDuplicates();
+  statistics.flow_ms = stage.lap() - statistics.refine_ms;
+  if (detectionIsDue()) addLines(gray);
+  statistics.detect_ms = stage.lap();
+  describeLines();
+  statistics.flow_ms += stage.lap();
+  normalizeEndpoints();
+  statistics.undistort_ms = stage.lap();
+
+  statistics.coverage = coverageOf(frame_.lines, gray.cols, gray.rows);
+  statistics.dropped_late = gate_.dropped().late - dropped_before_epoch_.late;
+  statistics.dropped_duplicate = gate_.dropped().duplicate - dropped_before_epoch_.duplicate;
+  statistics.dropped_zero = gate_.dropped().zero - dropped_before_epoch_.zero;
+  statistics.total_ms = total.lap();
+  return &frame_;
+}
+
+void LineTracker::Implementation::setMask(const cv::Mat& mask) {
+  if (!mask.empty() && mask.type() != CV_8UC1) {
+    throw std::invalid_argument("mask is of OpenCV type " + std::to_string(mask.type()) +
+                                ", needs 8-bit gray (type 0)");
+  }
+  mask_ = mask.clone();
+}
+
+std::size_t LineTracker::Implementation::reset() {
+  const std::size_t dropped = frame_.lines.size();
+  frame_.lines.clear();
+  gate_.reset();
+  return dropped;
+}
+
+void LineTracker::Implementation::trackLines(const MotionPrediction& prediction) {
+  FrameStatistics& statistics = frame_.statistics;
+  statistics.tracks_before = static_cast<std::uint32_t>(frame_.lines.size());
+  reasons_.resize(frame_.lines.size());
+  workers_.run(frame_.lines.size(),
+               [&](std::size_t i) { reasons_[i] = follow(prediction, frame_.lines[i], appearances_[i]); });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < frame_.lines.size(); ++i) {
+    const LossReason reason = reasons_[i];
+    if (reason != LossReason::kCount) {
+      ++statistics.lost[static_cast<std::size_t>(reason)];
+      continue;
+    }
+    if (kept != i) {
+      frame_.lines[kept] = frame_.lines[i];
+      std::swap(appearances_[kept], appearances_[i]);
+    }
+    ++kept;
+  }
+  frame_.lines.resize(kept);
+  statistics.tracks_kept = static_cast<std::uint32_t>(kept);
+}
+
+LossReason LineTracker::Implementation::follow(const MotionPrediction& prediction, TrackedLine& line,
+                                               Appearance& appearance) const {
+  const LineSegment turned =
+      prior_.apply(prediction, line.segment, line.start_normalized, line.end_normalized);
+  const LineSegment expected = {turned.start + appearance.start_parallax,
+                                turned.end + appearance.end_parallax};
+  const EndpointFlow flow = endpoint_tracker_.track(appearance.patches, pyramid_, expected);
+  const bool joint = in_force_.flow.joint_endpoints;
+  if (flow.status == EndpointFlow::Status::kNoSolution) return LossReason::kFlow;
+  if (flow.status == EndpointFlow::Status::kOutside) return LossReason::kBorder;
+  if (flow.status == EndpointFlow::Status::kHighResidual &&
+      (!joint || flow.residual > in_force_.plausibility.max_joint_residual)) {
+    return LossReason::kResidual;
+  }
+  line.segment = flow.segment;
+  line.residual = flow.residual;
+  ++line.age;
+  const bool paper = in_force_.method == "paper";
+  if (paper && !(bounds_.contains(line.segment.start) && bounds_.contains(line.segment.end))) {
+    return LossReason::kBorder;
+  }
+  if (!paper) {
+    if (!isPlausible(expected, line.segment)) return LossReason::kLength;
+    if (angleBetween(expected, line.segment) > in_force_.plausibility.max_turn) return LossReason::kAngle;
+  }
+  if (in_force_.refiner.refine) {
+    const EdgeFit fit = refiner_.fit(pyramid_.level(0), line.segment, appearance.contrast);
+    if (fit.support < in_force_.refiner.min_support) return LossReason::kSupport;
+    line.segment = fit.segment;
+    line.sigma_px = fit.sigma_px;
+    appearance.contrast = fit.contrast;
+  }
+  if (!paper) {
+    const std::optional<LineSegment> inside = clip(line.segment, bounds_);
+    if (!inside || inside->length() < static_cast<float>(in_force_.detection.min_length)) {
+      return inside && inside->length() == line.segment.length() ? LossReason::kLength : LossReason::kBorder;
+    }
+    line.segment = *inside;
+  }
+  if (line.segment.length() < static_cast<float>(in_force_.detection.min_length)) return LossReason::kLength;
+  if (!mask_in_force_.empty() && !mostlyInMask(line.segment, mask_in_force_)) return LossReason::kMask;
+  if (!paper && in_force_.motion.keep_parallax) keepParallax(turned, line.segment, appearance);
+  return LossReason::kCount;
+}
+
+void LineTracker::Implementation::keepParallax(const LineSegment& turned, const LineSegment& found,
+                                               Appearance& appearance) {
+  // Across the line alone: along it the flow knows little. Not the whole of it, so that an error dies away.
+  constexpr float kShare = 0.8F;
+  const Eigen::Vector2f normal = turned.normal();
+  appearance.start_parallax = -kShare * found.distance(turned.start) * normal;
+  appearance.end_parallax = -kShare * found.distance(turned.end) * normal;
+}
+
+bool LineTracker::Implementation::isPlausible(const LineSegment& expected, const LineSegment& found) const {
+  const float stretch = static_cast<float>(in_force_.plausibility.max_stretch);
+  const float ratio = found.length() / expected.length();
+  return ratio < stretch && ratio * stretch > 1.0F;
+}
+
+void LineTracker::Implementation::dropDuplicates() {
+  if (in_force_.method == "paper") return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < frame_.lines.size(); ++i) {
+    bool duplicate = false;
+    for (std::size_t older = 0; older < kept && !duplicate; ++older) {
+      duplicate = onSameEdge(frame_.lines[i].segment, frame_.lines[older].segment, kDuplicateLimits);
+    }
+    if (duplicate) {
+      ++frame_.statistics.lost[static_cast<std::size_t>(LossReason::kDuplicate)];
+      continue;
+    }
+    if (kept != i) {
+      frame_.lines[kept] = frame_.lines[i];
+      std::swap(appearances_[kept], appearances_[i]);
+    }
+    ++kept;
+  }
+  frame_.lines.resize(kept);
+  frame_.statistics.tracks_kept = static_cast<std::uint32_t>(kept);
+}
+
+bool LineTracker::Implementation::detectionIsDue() {
+  ++images_since_detection_;
+  const std::size_t lines = frame_.lines.size();
+  if (in_force_.method == "paper") return lines < static_cast<std::size_t>(in_force_.detection.min_lines);
+  if (frame_.image_count == 1) return true;
+  if (images_since_detection_ < in_force_.detection.detection_interval) return false;
+  // Too few lines, or a part of the image that has lost its lines.
+  const double share = in_force_.detection.redetect_share;
+  return lines < static_cast<std::size_t>(in_force_.detection.min_lines) ||
+         static_cast<double>(lines) < share * static_cast<double>(lines_after_detection_) ||
+         coverageOf(frame_.lines, frame_.width, frame_.height) < share * coverage_after_detection_;
+}
+
+void LineTracker::Implementation::addLines(const cv::Mat& gray) {
+  const float min_length = static_cast<float>(in_force_.detection.min_length);
+  detector_->detect(gray, min_length, candidates_, mask_in_force_);
+  frame_.detected = true;
+  frame_.statistics.lines_detected = static_cast<std::uint32_t>(candidates_.size());
+
+  std::size_t usable = 0;
+  for (LineSegment candidate : candidates_) {
+    if (in_force_.refiner.refine) {
+      const EdgeFit fit = refiner_.fit(gray, candidate, refiner_.contrastOf(gray, candidate));
+      if (fit.support < in_force_.detection.min_new_support) continue;
+      candidate = fit.segment;
+    }
+    const std::optional<LineSegment> inside = clip(candidate, bounds_);
+    if (inside && inside->length() >= min_length) candidates_[usable++] = *inside;
+  }
+  candidates_.resize(usable);
+
+  tracked_segments_.clear();
+  for (const TrackedLine& line : frame_.lines) tracked_segments_.push_back(line.segment);
+  const std::size_t max_lines = static_cast<std::size_t>(in_force_.detection.max_lines);
+  const std::size_t room = max_lines - std::min(max_lines, frame_.lines.size());
+  chooseNewLines(tracked_segments_, room, candidates_);
+  for (const LineSegment& segment : candidates_) {
+    TrackedLine line;
+    line.id = next_id_++;
+    line.segment = segment;
+    frame_.lines.push_back(line);
+    if (appearances_.size() < frame_.lines.size()) appearances_.resize(frame_.lines.size());
+    Appearance& appearance = appearances_[frame_.lines.size() - 1];
+    appearance.contrast = refiner_.contrastOf(gray, segment);
+    appearance.start_parallax.setZero();
+    appearance.end_parallax.setZero();
+  }
+  frame_.statistics.lines_added = static_cast<std::uint32_t>(candidates_.size());
+  lines_after_detection_ = frame_.lines.size();
+  coverage_after_detection_ = coverageOf(frame_.lines, frame_.width, frame_.height);
+  images_since_detection_ = 0;
+}
+
+void LineTracker::Implementation::describeLines() {
+  workers_.run(frame_.lines.size(), [this](std::size_t i) {
+    endpoint_tracker_.describe(pyramid_, frame_.lines[i].segment, appearances_[i].patches);
+  });
+}
+
+void LineTracker::Implementation::normalizeEndpoints() {
+  const Eigen::Vector2d unknown = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  for (TrackedLine& line : frame_.lines) {
+    line.start_normalized = line.end_normalized = unknown;
+    if (!camera_) continue;
+    if (const std::optional<NormalizedSegment> seen = normalizeSegment(*camera_, line.segment)) {
+      line.start_normalized = seen->start;
+      line.end_normalized = seen->end;
+    }
+  }
+}
+
+LineTracker::LineTracker(const LineTrackerParameters& parameters)
+    : implementation_(std::make_unique<Implementation>(parameters)) {}
+LineTracker::~LineTracker() = default;
+LineTracker::LineTracker(LineTracker&&) noexcept = default;
+LineTracker& LineTracker::operator=(LineTracker&&) noexcept = default;
+
+const LineFrame* LineTracker::process(const cv::Mat& gray, std::int64_t stamp_ns) {
+  return implementation_->process(gray, stamp_ns);
+}
+void LineTracker::setCamera(std::shared_ptr<const CameraModel> camera) {
+  implementation_->setCamera(std::move(camera));
+}
+void LineTracker::setMask(const cv::Mat& mask) {
+  implementation_->setMask(mask);
+}
+void LineTracker::setImuRotation(const Eigen::Matrix3d& camera_from_imu) {
+  implementation_->prior().setImuRotation(camera_from_imu);
+}
+void LineTracker::addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3d& angular_velocity) {
+  implementation_->prior().addAngularVelocity(stamp_ns, angular_velocity);
+}
+std::size_t LineTracker::reset() {
+  return implementation_->reset();
+}
+const LineTrackerParameters& LineTracker::parameters() const {
+  return implementation_->parameters();
+}
+std::string LineTracker::detectorName() const {
+  return implementation_->detectorName();
+}
+
+}  // namespace tet_line_tracker

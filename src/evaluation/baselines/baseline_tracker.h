@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "tet_line_tracker/camera_model.h"
+#include "tet_line_tracker/line_tracker.h"
+#include "tet_line_tracker/stream_gate.h"
+
+namespace tet_line_tracker {
+
+/// Another way from images to line tracks, with the outputs of LineTracker, to compare it with. Of its
+/// parameters those of detection and stream are used; the detector is always LSD.
+/// In the statistics, flow_ms is the time of matching or flow, refine_ms that of describing lines.
+class BaselineTracker {
+ public:
+  virtual ~BaselineTracker() = default;
+
+  /// As LineTracker::setCamera().
+  void setCamera(std::shared_ptr<const CameraModel> camera) { camera_ = std::move(camera); }
+  /// As LineTracker::process().
+  const LineFrame* process(const cv::Mat& gray, std::int64_t stamp_ns);
+
+ protected:
+  explicit BaselineTracker(const LineTrackerParameters& parameters);
+
+  /// Turns the lines of the image before, in frame().lines, into those of `gray`; fills in the counts, the
+  /// times of the stages and `detected`.
+  virtual void track(const cv::Mat& gray) = 0;
+  /// Forgets what was kept besides frame().lines.
+  virtual void forget() = 0;
+
+  LineFrame& frame() { return frame_; }
+  const DetectionParameters& detection() const { return detection_; }
+  /// A line that is seen for the first time.
+  TrackedLine newLine(const LineSegment& segment);
+
+ private:
+  void normalizeEndpoints();
+
+  DetectionParameters detection_;
+  StreamGate gate_;
+  std::shared_ptr<const CameraModel> camera_;
+  LineFrame frame_;
+  std::uint64_t next_id_{0};
+  bool any_epoch_{false};
+};
+
+/// Names of the baselines that this build holds.
+std::vector<std::string> baselineNames();
+
+/// Baseline by name. Throws std::invalid_argument for an unknown one, or when this OpenCV lacks a part that
+/// it needs.
+std::unique_ptr<BaselineTracker> makeBaselineTracker(const std::string& name,
+                                                     const LineTrackerParameters& parameters);
+
+}  // namespace tet_line_tracker

@@ -1,0 +1,99 @@
+#include "lk_endpoints.h"
+
+#include <algorithm>
+
+#include <opencv2/video/tracking.hpp>
+
+#include "../../core/new_line_chooser.h"
+#include "../../core/stopwatch.h"
+
+namespace tet_line_tracker {
+namespace {
+
+const cv::Size kWindow(7, 7);
+constexpr int kMaxLevel = 2;  // three images in the pyramid
+
+}  // namespace
+
+LkEndpoints::LkEndpoints(const LineTrackerParameters& parameters)
+    : BaselineTracker(parameters),
+      max_residual_(parameters.flow.max_residual),
+      detector_(makeLineDetector("lsd")) {}
+
+void LkEndpoints::track(const cv::Mat& gray) {
+  FrameStatistics& statistics = frame().statistics;
+  Stopwatch stage;
+  std::swap(pyramid_before_, pyramid_);
+  cv::buildOpticalFlowPyramid(gray, pyramid_, kWindow, kMaxLevel);
+  statistics.pyramid_ms = stage.lap();
+  flow();
+  statistics.tracks_kept = static_cast<std::uint32_t>(frame().lines.size());
+  statistics.flow_ms = stage.lap();
+  if (static_cast<int>(frame().lines.size()) < detection().min_lines) addLines(gray);
+  statistics.detect_ms = stage.lap();
+}
+
+void LkEndpoints::flow() {
+  std::vector<TrackedLine>& lines = frame().lines;
+  if (lines.empty()) return;
+  points_before_.clear();
+  for (const TrackedLine& line : lines) {
+    points_before_.emplace_back(line.segment.start.x(), line.segment.start.y());
+    points_before_.emplace_back(line.segment.end.x(), line.segment.end.y());
+  }
+  const cv::TermCriteria ten_iterations(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 10, 0.01);
+  cv::calcOpticalFlowPyrLK(pyramid_before_, pyramid_, points_before_, points_, found_, residuals_, kWindow,
+                           kMaxLevel, ten_iterations);
+
+  const ImageBounds bounds =
+      ImageBounds::ofImage(frame().width, frame().height, static_cast<float>(detection().border));
+  auto& lost = frame().statistics.lost;
+  const auto count = [&lost](LossReason reason) { ++lost[static_cast<std::size_t>(reason)]; };
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::size_t start = 2 * i;
+    const std::size_t end = start + 1;
+    const LineSegment segment{{points_[start].x, points_[start].y}, {points_[end].x, points_[end].y}};
+    // OpenCV gives the mean absolute difference of gray values of 0..255.
+    const float residual = std::max(residuals_[start], residuals_[end]) / 255.0F;
+    if (found_[start] == 0 || found_[end] == 0) {
+      count(LossReason::kFlow);
+    } else if (residual > max_residual_) {
+      count(LossReason::kResidual);
+    } else if (!bounds.contains(segment.start) || !bounds.contains(segment.end)) {
+      count(LossReason::kBorder);
+    } else if (segment.length() < detection().min_length) {
+      count(LossReason::kLength);
+    } else {
+      lines[kept] = lines[i];
+      lines[kept].segment = segment;
+      lines[kept].residual = residual;
+      ++lines[kept].age;
+      ++kept;
+    }
+  }
+  lines.resize(kept);
+}
+
+void LkEndpoints::addLines(const cv::Mat& gray) {
+  std::vector<TrackedLine>& lines = frame().lines;
+  frame().detected = true;
+  detector_->detect(gray, static_cast<float>(detection().min_length), candidates_);
+  frame().statistics.lines_detected = static_cast<std::uint32_t>(candidates_.size());
+  const ImageBounds bounds =
+      ImageBounds::ofImage(frame().width, frame().height, static_cast<float>(detection().border));
+  candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
+                                   [&bounds](const LineSegment& line) {
+                                     return !bounds.contains(line.start) || !bounds.contains(line.end);
+                                   }),
+                    candidates_.end());
+  std::vector<LineSegment> tracked;
+  tracked.reserve(lines.size());
+  for (const TrackedLine& line : lines) tracked.push_back(line.segment);
+  const auto room = static_cast<std::size_t>(detection().max_lines) - lines.size();
+  chooseNewLines(tracked, room, candidates_);
+  for (const LineSegment& segment : candidates_) lines.push_back(newLine(segment));
+  frame().statistics.lines_added = static_cast<std::uint32_t>(candidates_.size());
+}
+
+}  // namespace tet_line_tracker

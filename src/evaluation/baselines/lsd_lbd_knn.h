@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <opencv2/features2d.hpp>
+#include <opencv2/line_descriptor.hpp>
+
+#include "baseline_tracker.h"
+#include "tet_line_tracker/line_detector.h"
+
+namespace tet_line_tracker {
+
+/// What the paper compares with: LSD in every image, lines under min_length dropped, a binary LBD descriptor
+/// for each of the others, and the two nearest of the image before by Hamming distance; the nearest is the
+/// same line when it is clearly nearer than the second.
+class LsdLbdKnn : public BaselineTracker {
+ public:
+  /// Throws std::invalid_argument when LSD does not work with this OpenCV.
+  explicit LsdLbdKnn(const LineTrackerParameters& parameters);
+
+ protected:
+  void track(const cv::Mat& gray) override;
+  void forget() override { descriptors_before_.release(); }
+
+ private:
+  /// For each line of this image its partner among those of the image before, or -1.
+  std::vector<int> match(const cv::Mat& descriptors) const;
+
+  std::unique_ptr<LineDetector> detector_;
+  cv::Ptr<cv::line_descriptor::BinaryDescriptor> describer_;
+  cv::BFMatcher matcher_;
+  std::vector<LineSegment> segments_;
+  cv::Mat descriptors_before_;  ///< of frame().lines of the image before, in their order
+};
+
+}  // namespace tet_line_tracker

@@ -1,0 +1,172 @@
+#include "evaluation_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ostream>
+#include <utility>
+
+namespace tet_line_tracker {
+namespace {
+
+using Values = std::vector<std::pair<std::string, double>>;
+
+/// Every measure by name; the names are those of the CSV and JSON files.
+Values valuesOf(const TrackMeasures& m) {
+  Values values{{"images", static_cast<double>(m.images)},
+                {"tracks", static_cast<double>(m.tracks)},
+                {"lines_per_image", m.lines_per_image},
+                {"coverage", m.coverage},
+                {"track_length", m.track_length},
+                {"detections", m.detections},
+                {"matches_per_pair", m.matches_per_pair},
+                {"homography_ratio", m.homography_ratio},
+                {"judged_pairs", static_cast<double>(m.judged_pairs)},
+                {"unjudged_pairs", static_cast<double>(m.unjudged_pairs)},
+                {"inlier_ratio_2px", m.inlier_ratio},
+                {"inlier_ratio_1px", m.tight_inlier_ratio},
+                {"error_median_px", m.median_error},
+                {"error_p95_px", m.p95_error}};
+  for (std::size_t n = 0; n < TrackMeasures::kDriftAges.size(); ++n) {
+    const std::string age = std::to_string(TrackMeasures::kDriftAges[n]);
+    values.emplace_back("drift_" + age + "_median_px", m.drift[n]);
+    values.emplace_back("drift_" + age + "_p95_px", m.drift_p95[n]);
+  }
+  const Values rest{{"clean_length", m.clean_length},
+                    {"survival", m.survival},
+                    {"sigma_spread", m.sigma_spread},
+                    {"ms_mean", m.ms_mean},
+                    {"ms_p99", m.ms_p99},
+                    {"pyramid_ms", m.pyramid_ms},
+                    {"prior_ms", m.prior_ms},
+                    {"flow_ms", m.flow_ms},
+                    {"refine_ms", m.refine_ms},
+                    {"detect_ms", m.detect_ms},
+                    {"undistort_ms", m.undistort_ms}};
+  values.insert(values.end(), rest.begin(), rest.end());
+  return values;
+}
+
+std::string number(double value, const char* format, const char* unknown) {
+  if (!std::isfinite(value)) return unknown;
+  char text[64];
+  std::snprintf(text, sizeof(text), format, value);
+  return text;
+}
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (static_cast<unsigned char>(c) >= 0x20) out += c;
+  }
+  return out + "\"";
+}
+
+template <class Container, class Write>
+void writeArray(std::ostream& out, const Container& values, const Write& write) {
+  out << "[";
+  bool first = true;
+  for (const auto& value : values) {
+    if (!first) out << ", ";
+    first = false;
+    write(value);
+  }
+  out << "]";
+}
+
+void writeCounts(std::ostream& out, const std::vector<std::size_t>& counts) {
+  writeArray(out, counts, [&out](std::size_t count) { out << count; });
+}
+
+void writeHistogram(std::ostream& out, const std::vector<PairError>& pairs) {
+  constexpr double kBin = 0.05;
+  constexpr std::size_t kBins = 81;  // the last one holds all from 4 px
+  std::vector<std::size_t> counts(kBins, 0);
+  for (const PairError& pair : pairs) {
+    if (std::isnan(pair.error)) continue;
+    ++counts[static_cast<std::size_t>(std::min(pair.error / kBin, static_cast<double>(kBins - 1)))];
+  }
+  out << "{\"bin_px\": " << kBin << ", \"counts\": ";
+  writeCounts(out, counts);
+  out << "}";
+}
+
+void writePairs(std::ostream& out, const std::vector<PairError>& pairs) {
+  writeArray(out, pairs, [&out](const PairError& pair) {
+    out << "[" << pair.frame << ", " << pair.id << ", " << number(pair.error, "%.4g", "null") << ", "
+        << (!pair.judged_by_homography ? "null"
+            : pair.homography_inlier   ? "true"
+                                       : "false")
+        << "]";
+  });
+}
+
+}  // namespace
+
+void writeText(std::ostream& out, const std::vector<EvaluatedBag>& bags) {
+  std::size_t width = 3;
+  for (const EvaluatedBag& bag : bags) width = std::max(width, bag.name.size());
+  const auto pad = [width](const std::string& text) { return text + std::string(width - text.size(), ' '); };
+  const auto row = [&out](const std::string& name, const std::vector<std::string>& cells) {
+    out << name;
+    for (const std::string& cell : cells) {
+      out << " " << std::string(cell.size() < 6 ? 6 - cell.size() : 0, ' ') << cell;
+    }
+    out << "\n";
+  };
+  row(pad("bag"), {"truth", "images", "lines", "cover%", "<2px%", "<1px%", "err", "drift5", "10", "20", "30",
+                   "length", "clean", "surv%", "sigma", "ms", "ms p99", "homog%"});
+  for (const EvaluatedBag& bag : bags) {
+    const TrackMeasures& m = bag.measures;
+    const auto text = [](double value, const char* format) { return number(value, format, "-"); };
+    row(pad(bag.name),
+        {bag.truth, std::to_string(m.images), text(m.lines_per_image, "%.1f"),
+         text(100.0 * m.coverage, "%.1f"), text(100.0 * m.inlier_ratio, "%.2f"),
+         text(100.0 * m.tight_inlier_ratio, "%.2f"), text(m.median_error, "%.3f"), text(m.drift[0], "%.3f"),
+         text(m.drift[1], "%.3f"), text(m.drift[2], "%.3f"), text(m.drift[3], "%.3f"),
+         text(m.track_length, "%.1f"), text(m.clean_length, "%.1f"), text(100.0 * m.survival, "%.1f"),
+         text(m.sigma_spread, "%.2f"), text(m.ms_mean, "%.2f"), text(m.ms_p99, "%.2f"),
+         text(100.0 * m.homography_ratio, "%.1f")});
+  }
+}
+
+void writeCsv(std::ostream& out, const std::vector<EvaluatedBag>& bags) {
+  out << "bag,truth";
+  for (const auto& value : valuesOf({})) out << "," << value.first;
+  out << "\n";
+  for (const EvaluatedBag& bag : bags) {
+    out << quoted(bag.name) << "," << bag.truth;
+    for (const auto& value : valuesOf(bag.measures)) out << "," << number(value.second, "%.9g", "");
+    out << "\n";
+  }
+}
+
+void writeJson(std::ostream& out, const std::vector<EvaluatedBag>& bags, bool with_pairs) {
+  writeArray(out, bags, [&](const EvaluatedBag& bag) {
+    const TrackMeasures& m = bag.measures;
+    out << "{\"bag\": " << quoted(bag.name) << ", \"truth\": " << quoted(bag.truth);
+    for (const auto& [name, value] : valuesOf(m)) {
+      out << ",\n  " << quoted(name) << ": " << number(value, "%.9g", "null");
+    }
+    out << ",\n  \"error_histogram\": ";
+    writeHistogram(out, m.pairs);
+    out << ",\n  \"survival_in_view\": ";
+    writeCounts(out, m.survival_curve.in_view);
+    out << ",\n  \"survival_covered\": ";
+    writeCounts(out, m.survival_curve.covered);
+    out << ",\n  \"seconds\": ";
+    writeArray(out, m.seconds, [&out](double seconds) { out << number(seconds, "%.6f", "null"); });
+    out << ",\n  \"lines\": ";
+    writeCounts(out, m.lines);
+    if (with_pairs) {
+      // frame, id, error [px], agrees with the homography
+      out << ",\n  \"pairs\": ";
+      writePairs(out, m.pairs);
+    }
+    out << "}";
+  });
+  out << "\n";
+}
+
+}  // namespace tet_line_tracker

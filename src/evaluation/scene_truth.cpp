@@ -1,0 +1,118 @@
+#include "scene_truth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/LU>
+
+#include "tet_line_tracker/line_segment.h"
+
+namespace tet_line_tracker {
+namespace {
+
+// How far beside the line the two sides are looked at [px]: clear of the edge itself, and of half a pixel
+// that a detector may be off.
+constexpr double kBesideLine = 1.5;
+// Something must stand clearly before a point to hide it: the point may lie a little beside its surface.
+constexpr double kHiddenBy = 0.02;          // [m]
+constexpr double kHiddenByRelative = 0.01;  // of the distance
+
+}  // namespace
+
+SceneTruth::SceneTruth(SceneGeometry scene, PoseTrack world_from_camera,
+                       std::shared_ptr<const CameraModel> camera)
+    : scene_(std::move(scene)), world_from_camera_(std::move(world_from_camera)), camera_(std::move(camera)) {
+  for (std::size_t i = 0; i < scene_.rectangles().size(); ++i) {
+    if (scene_.rectangles()[i].body < 0) {
+      still_.push_back(screenOf(i, 0));
+    } else {
+      moving_.push_back(i);
+    }
+  }
+}
+
+SceneTruth::Screen SceneTruth::screenOf(std::size_t rectangle, std::int64_t stamp_ns) const {
+  const Rectangle& shape = scene_.rectangles()[rectangle];
+  const auto at = [&](double u, double v) {
+    return scene_.pointAt({static_cast<int>(rectangle), {u, v}}, stamp_ns);
+  };
+  Screen screen;
+  screen.corner = at(0.0, 0.0);
+  screen.across = (at(1.0, 0.0) - screen.corner) / shape.width;
+  screen.up = (at(0.0, 1.0) - screen.corner) / shape.height;
+  screen.normal = screen.across.cross(screen.up);
+  return screen;
+}
+
+bool SceneTruth::standsInTheWay(const Screen& screen, const Eigen::Vector3d& from, const Eigen::Vector3d& way,
+                                double until) {
+  const Eigen::Vector3d to_corner = screen.corner - from;
+  const double reach = screen.normal.dot(to_corner) / screen.normal.dot(way);
+  if (!(reach > 0.0 && reach < until)) return false;
+  const Eigen::Vector3d offset = reach * way - to_corner;
+  const double across = screen.across.dot(offset);
+  const double up = screen.up.dot(offset);
+  return across >= 0.0 && across <= 1.0 && up >= 0.0 && up <= 1.0;
+}
+
+bool SceneTruth::hidden(const Eigen::Vector3d& from, const Eigen::Vector3d& to, std::int64_t stamp_ns) const {
+  const Eigen::Vector3d way = to - from;
+  const double until = 1.0 - kHiddenByRelative - kHiddenBy / way.norm();
+  for (const Screen& screen : still_) {
+    if (standsInTheWay(screen, from, way, until)) return true;
+  }
+  return std::any_of(moving_.begin(), moving_.end(), [&](std::size_t rectangle) {
+    return standsInTheWay(screenOf(rectangle, stamp_ns), from, way, until);
+  });
+}
+
+std::optional<WorldPoint> SceneTruth::lift(std::int64_t stamp_ns, const Eigen::Vector2d& pixel,
+                                           const Eigen::Vector2d& normal) const {
+  const auto pose = world_from_camera_.at(stamp_ns);
+  const auto ray_in_camera = camera_->unproject(pixel);
+  if (!pose || !ray_in_camera) return std::nullopt;
+
+  std::optional<RayHit> nearer;
+  for (const double side : {-kBesideLine, kBesideLine}) {
+    const auto ray = camera_->unproject(pixel + side * normal);
+    if (!ray) continue;
+    const auto hit = scene_.raycast(pose->translation(), pose->linear() * *ray, stamp_ns);
+    if (hit && (!nearer || hit->distance < nearer->distance)) nearer = hit;
+  }
+  if (!nearer) return std::nullopt;
+
+  // The line's own ray meets the plane of the nearer surface, which goes on beyond the edge: no bias from
+  // having looked beside the line.
+  const auto corner = [&](double u, double v) {
+    return scene_.pointAt({nearer->point.surface, {u, v}}, stamp_ns);
+  };
+  const Eigen::Vector3d origin = corner(0.0, 0.0);
+  Eigen::Matrix3d system;
+  system.col(0) = corner(1.0, 0.0) - origin;
+  system.col(1) = corner(0.0, 1.0) - origin;
+  system.col(2) = -(pose->linear() * *ray_in_camera);
+  // A ray that grazes the plane meets it anywhere.
+  if (std::abs(system.determinant()) < 1e-6) return std::nullopt;
+  const Eigen::Vector3d solution = system.inverse() * (pose->translation() - origin);
+  if (solution.z() <= 0.0) return std::nullopt;
+  return WorldPoint{nearer->point.surface, {solution.x(), solution.y(), 0.0}};
+}
+
+std::optional<PointView> SceneTruth::view(const WorldPoint& point, std::int64_t stamp_ns) const {
+  const auto pose = world_from_camera_.at(stamp_ns);
+  if (!pose) return std::nullopt;
+  const Eigen::Vector3d in_world = scene_.pointAt({point.surface, point.position.head<2>()}, stamp_ns);
+  const auto pixel = camera_->project(pose->inverse() * in_world);
+  if (!pixel) return std::nullopt;
+
+  PointView view;
+  view.pixel = *pixel;
+  const CameraCalibration& calibration = camera_->calibration();
+  view.in_picture =
+      ImageBounds::ofImage(calibration.width, calibration.height).contains(pixel->cast<float>());
+  view.hidden = view.in_picture && hidden(pose->translation(), in_world, stamp_ns);
+  return view;
+}
+
+}  // namespace tet_line_tracker

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "pose_track.h"
+#include "simulation/scene_geometry.h"
+#include "tet_line_tracker/camera_model.h"
+#include "truth.h"
+
+namespace tet_line_tracker {
+
+/// Exact truth of a simulated world. Surfaces are the scene's rectangles; positions are along their axes.
+class SceneTruth : public Truth {
+ public:
+  /// `world_from_camera`: at least the poses of all images.
+  SceneTruth(SceneGeometry scene, PoseTrack world_from_camera, std::shared_ptr<const CameraModel> camera);
+
+  std::optional<WorldPoint> lift(std::int64_t stamp_ns, const Eigen::Vector2d& pixel,
+                                 const Eigen::Vector2d& normal) const override;
+  std::optional<PointView> view(const WorldPoint& point, std::int64_t stamp_ns) const override;
+
+ private:
+  /// A rectangle at one time, made ready for the question whether it stands in a way.
+  struct Screen {
+    Eigen::Vector3d corner, normal;
+    Eigen::Vector3d across, up;  ///< times the offset from the corner: 0..1 inside
+  };
+  Screen screenOf(std::size_t rectangle, std::int64_t stamp_ns) const;
+  static bool standsInTheWay(const Screen& screen, const Eigen::Vector3d& from, const Eigen::Vector3d& way,
+                             double until);
+  bool hidden(const Eigen::Vector3d& from, const Eigen::Vector3d& to, std::int64_t stamp_ns) const;
+
+  std::vector<Screen> still_;        ///< rectangles that do not move
+  std::vector<std::size_t> moving_;  ///< indices of the others
+  SceneGeometry scene_;
+  PoseTrack world_from_camera_;
+  std::shared_ptr<const CameraModel> camera_;
+};
+
+}  // namespace tet_line_tracker

@@ -1,0 +1,108 @@
+#include "messages.h"
+
+#include <ros/time.h>
+
+namespace tet_line_tracker {
+namespace {
+
+template <class Vector, class Array>
+void assign(const Vector& from, Array& to) {
+  to[0] = from.x();
+  to[1] = from.y();
+}
+
+std_msgs::Header headerOf(const LineFrame& frame, const std::string& frame_id, std::uint32_t sequence) {
+  std_msgs::Header header;
+  header.seq = sequence;
+  header.stamp.fromNSec(static_cast<std::uint64_t>(frame.stamp_ns));
+  header.frame_id = frame_id;
+  return header;
+}
+
+}  // namespace
+
+LineArray toLineArray(const LineFrame& frame, const std::string& frame_id, std::uint32_t sequence) {
+  LineArray message;
+  message.header = headerOf(frame, frame_id, sequence);
+  message.epoch = frame.epoch;
+  message.image_count = frame.image_count;
+  message.width = static_cast<std::uint32_t>(frame.width);
+  message.height = static_cast<std::uint32_t>(frame.height);
+  message.detected = static_cast<std::uint8_t>(frame.detected);
+  message.lines.reserve(frame.lines.size());
+  for (const TrackedLine& line : frame.lines) {
+    Line& out = message.lines.emplace_back();
+    out.id = line.id;
+    out.age = line.age;
+    assign(line.segment.start, out.start_px);
+    assign(line.segment.end, out.end_px);
+    assign(line.start_normalized, out.start_normalized);
+    assign(line.end_normalized, out.end_normalized);
+    out.sigma_px = line.sigma_px;
+    out.residual = line.residual;
+  }
+  return message;
+}
+
+LineFrame toLineFrame(const LineArray& message) {
+  LineFrame frame;
+  frame.stamp_ns = static_cast<std::int64_t>(message.header.stamp.toNSec());
+  frame.epoch = message.epoch;
+  frame.image_count = message.image_count;
+  frame.width = static_cast<int>(message.width);
+  frame.height = static_cast<int>(message.height);
+  frame.detected = message.detected != 0;
+  frame.lines.reserve(message.lines.size());
+  for (const Line& line : message.lines) {
+    TrackedLine& out = frame.lines.emplace_back();
+    out.id = line.id;
+    out.age = line.age;
+    out.segment = {{line.start_px[0], line.start_px[1]}, {line.end_px[0], line.end_px[1]}};
+    out.start_normalized = {line.start_normalized[0], line.start_normalized[1]};
+    out.end_normalized = {line.end_normalized[0], line.end_normalized[1]};
+    out.sigma_px = line.sigma_px;
+    out.residual = line.residual;
+  }
+  return frame;
+}
+
+TrackingStatistics toTrackingStatistics(const LineFrame& frame, const std::string& frame_id,
+                                        std::uint32_t sequence, std::uint32_t dropped_queue) {
+  const FrameStatistics& from = frame.statistics;
+  const auto lost = [&from](LossReason reason) { return from.lost[static_cast<std::size_t>(reason)]; };
+  TrackingStatistics message;
+  message.header = headerOf(frame, frame_id, sequence);
+  message.epoch = frame.epoch;
+  message.image_count = frame.image_count;
+  message.tracks_before = from.tracks_before;
+  message.tracks_kept = from.tracks_kept;
+  message.lines_detected = from.lines_detected;
+  message.lines_added = from.lines_added;
+  message.coverage = from.coverage;
+  message.lost_flow = lost(LossReason::kFlow);
+  message.lost_residual = lost(LossReason::kResidual);
+  message.lost_forward_backward = lost(LossReason::kForwardBackward);
+  message.lost_length = lost(LossReason::kLength);
+  message.lost_angle = lost(LossReason::kAngle);
+  message.lost_support = lost(LossReason::kSupport);
+  message.lost_border = lost(LossReason::kBorder);
+  message.lost_mask = lost(LossReason::kMask);
+  message.lost_duplicate = lost(LossReason::kDuplicate);
+  message.lost_geometry = lost(LossReason::kGeometry);
+  message.prior = from.prior;
+  message.prior_rotation = from.prior_rotation;
+  message.dropped_late = from.dropped_late;
+  message.dropped_duplicate = from.dropped_duplicate;
+  message.dropped_zero = from.dropped_zero;
+  message.dropped_queue = dropped_queue;
+  message.pyramid_ms = static_cast<float>(from.pyramid_ms);
+  message.prior_ms = static_cast<float>(from.prior_ms);
+  message.flow_ms = static_cast<float>(from.flow_ms);
+  message.refine_ms = static_cast<float>(from.refine_ms);
+  message.detect_ms = static_cast<float>(from.detect_ms);
+  message.undistort_ms = static_cast<float>(from.undistort_ms);
+  message.total_ms = static_cast<float>(from.total_ms);
+  return message;
+}
+
+}  // namespace tet_line_tracker

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include <ros/node_handle.h>
+
+#include "tet_line_tracker/parameter_table.h"
+#include "tet_line_tracker/parameters.h"
+
+namespace tet_line_tracker {
+
+/// What the node adds to the front end: from ROS images, to ROS messages.
+struct NodeParameters {
+  double publish_rate{0.0};  ///< messages per second of image stamps, 0..1000 [Hz]; 0: one for every image
+  double mono16_scale{1.0 / 256.0};  ///< 8-bit gray per step of a 16-bit image, 1e-6..255
+  int queue_size{2};                 ///< images that wait for their turn at most, 1..1000
+  bool marker_ids{false};            ///< ids beside the lines of ~markers
+  double imu_wait{0.05};             ///< an image waits so long for its IMU messages, 0..10 [s]
+  std::string imu_rotation;  ///< "qx qy qz qw": takes directions in the IMU's frame to the camera's; empty:
+                             ///< ask tf
+  std::string mask;          ///< path of an image: white where lines are tracked; empty: everywhere
+};
+
+/// Entries bound to the fields of `parameters`, which must outlive the table.
+ParameterTable tableOf(NodeParameters& parameters);
+
+/// One sentence for each broken rule, empty when the parameters can be used.
+std::vector<std::string> check(const NodeParameters& parameters);
+
+/// Names below the private namespace that are not the front end's: image_transport, diagnostic_updater and
+/// nodelet keep their own settings there.
+const std::set<std::string>& foreignParameterNames();
+
+/// Sets the fields of `table` from the private namespace of `node`. Throws std::invalid_argument with one
+/// sentence for each unknown name, wrong type and value out of range.
+void loadParameters(const ros::NodeHandle& node, ParameterTable table);
+
+/// The same for the front end and its node, with the rules between their parameters.
+void loadParameters(const ros::NodeHandle& node, LineTrackerParameters& tracker, NodeParameters& parameters);
+
+}  // namespace tet_line_tracker

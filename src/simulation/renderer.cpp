@@ -1,0 +1,315 @@
+#include "renderer.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <thread>
+
+namespace tet_line_tracker {
+namespace {
+
+constexpr int kTileSide = 16;
+constexpr int kMostOutlineSamples = 34;
+constexpr int kNothing = -1;
+
+/// Fibonacci lattice over a pixel, which leaves no direction badly sampled. The views of a blurred image are
+/// displaced against each other and need fewer samples each.
+struct OutlineLattice {
+  int samples, stride;
+  Eigen::Vector2f offset(int i) const {
+    const auto inPixel = [this](int k) {
+      return (static_cast<float>(k) + 0.5F) / static_cast<float>(samples) - 0.5F;
+    };
+    return {inPixel(i), inPixel(i * stride % samples)};
+  }
+};
+
+OutlineLattice outlineLattice(std::size_t views) {
+  if (views == 1) return {kMostOutlineSamples, 21};
+  return views <= 3 ? OutlineLattice{13, 8} : OutlineLattice{8, 5};
+}
+
+Eigen::Vector3f rayOrNan(const CameraModel& camera, double x, double y) {
+  const auto ray = camera.unproject({x, y});
+  if (!ray) return Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+  return ray->cast<float>();
+}
+
+}  // namespace
+
+Renderer::Renderer(std::shared_ptr<const CameraModel> camera, const World& world, int threads)
+    : camera_(std::move(camera)),
+      world_(world),
+      threads_(std::max(1, threads)),
+      size_(camera_->calibration().width, camera_->calibration().height) {
+  if (size_.width < 2 || size_.height < 2) {
+    throw std::invalid_argument("calibration: size is " + std::to_string(size_.width) + " x " +
+                                std::to_string(size_.height) + ", rendering needs at least 2 x 2");
+  }
+  makeTiles();
+  makeRays(*camera_);
+  boundTiles();
+  surface_.create(size_);
+}
+
+void Renderer::makeTiles() {
+  for (int y = 0; y < size_.height; y += kTileSide) {
+    for (int x = 0; x < size_.width; x += kTileSide) {
+      tiles_.emplace_back();
+      tiles_.back().pixels = cv::Rect(x, y, kTileSide, kTileSide) & cv::Rect(cv::Point(), size_);
+    }
+  }
+}
+
+void Renderer::makeRays(const CameraModel& camera) {
+  const auto width = static_cast<std::size_t>(size_.width);
+  const auto indexOf = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
+  };
+  rays_.resize(width * static_cast<std::size_t>(size_.height));
+  parallelTiles([&](std::size_t number) {
+    const cv::Rect& area = tiles_[number].pixels;
+    for (int y = area.y; y < area.y + area.height; ++y) {
+      for (int x = area.x; x < area.x + area.width; ++x) rays_[indexOf(x, y)].ray = rayOrNan(camera, x, y);
+    }
+  });
+  parallelTiles([&](std::size_t number) {
+    const cv::Rect& area = tiles_[number].pixels;
+    const auto ray = [&](int x, int y) -> Eigen::Vector3f {
+      const bool inside = x >= 0 && y >= 0 && x < size_.width && y < size_.height;
+      return inside ? rays_[indexOf(x, y)].ray : rayOrNan(camera, x, y);
+    };
+    for (int y = area.y; y < area.y + area.height; ++y) {
+      for (int x = area.x; x < area.x + area.width; ++x) {
+        PixelRay& pixel = rays_[indexOf(x, y)];
+        pixel.per_x = 0.5F * (ray(x + 1, y) - ray(x - 1, y));
+        pixel.per_y = 0.5F * (ray(x, y + 1) - ray(x, y - 1));
+        // Where the model ends a pixel counts as a point.
+        if (!pixel.per_x.allFinite()) pixel.per_x.setZero();
+        if (!pixel.per_y.allFinite()) pixel.per_y.setZero();
+      }
+    }
+  });
+}
+
+void Renderer::boundTiles() {
+  parallelTiles([&](std::size_t number) {
+    Tile& tile = tiles_[number];
+    const cv::Rect& area = tile.pixels;
+    tile.middle = rayAt(area.x + area.width / 2, area.y + area.height / 2).ray;
+    if (area.width < 2 || area.height < 2) return;
+    const int right = area.x + area.width - 1;
+    const int bottom = area.y + area.height - 1;
+    const std::array<Eigen::Vector3d, 4> corners{
+        rayAt(area.x, area.y).ray.cast<double>(), rayAt(right, area.y).ray.cast<double>(),
+        rayAt(right, bottom).ray.cast<double>(), rayAt(area.x, bottom).ray.cast<double>()};
+    bool complete = true;
+    for (std::size_t side = 0; side < 4; ++side) {
+      Eigen::Vector3d normal = corners[side].cross(corners[(side + 1) % 4]).normalized();
+      if (normal.dot(tile.middle.cast<double>()) < 0.0) normal = -normal;
+      double lowest = 0.0;
+      for (int y = area.y; y <= bottom; ++y) {
+        for (int x = area.x; x <= right; ++x) {
+          const PixelRay& pixel = rayAt(x, y);
+          complete = complete && pixel.ray.allFinite();
+          const double half_pixel = 0.5 * static_cast<double>(pixel.per_x.norm() + pixel.per_y.norm());
+          lowest = std::min(lowest, normal.dot(pixel.ray.cast<double>()) - half_pixel);
+        }
+      }
+      tile.normals[side] = normal;
+      tile.slacks[side] = lowest;
+    }
+    tile.bounded = complete;
+  });
+}
+
+void Renderer::parallelTiles(const std::function<void(std::size_t)>& body) const {
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    constexpr std::size_t kRun = 8;
+    for (std::size_t first = next.fetch_add(kRun); first < tiles_.size(); first = next.fetch_add(kRun)) {
+      for (std::size_t i = first; i < std::min(first + kRun, tiles_.size()); ++i) body(i);
+    }
+  };
+  std::vector<std::thread> helpers;
+  for (int i = 1; i < threads_; ++i) helpers.emplace_back(work);
+  work();
+  for (std::thread& helper : helpers) helper.join();
+}
+
+std::vector<Renderer::SeenRectangle> Renderer::see(const View& view) const {
+  const SceneGeometry& geometry = world_.geometry;
+  const Eigen::Isometry3d camera_from_world = view.world_from_camera.inverse();
+  std::vector<Eigen::Isometry3d> camera_from_body;
+  for (const MovingBody& body : geometry.bodies()) {
+    camera_from_body.push_back(camera_from_world * body.worldFromBody(view.stamp_ns));
+  }
+  std::vector<SeenRectangle> all;
+  all.reserve(geometry.rectangles().size());
+  for (std::size_t i = 0; i < geometry.rectangles().size(); ++i) {
+    const Rectangle& r = geometry.rectangles()[i];
+    const Eigen::Isometry3d& pose =
+        r.body < 0 ? camera_from_world : camera_from_body[static_cast<std::size_t>(r.body)];
+    const Eigen::Vector3d origin = pose * r.origin;
+    const Eigen::Vector3d u_axis = pose.linear() * r.u_axis;
+    const Eigen::Vector3d v_axis = pose.linear() * r.v_axis;
+    const Eigen::Vector3d normal = u_axis.cross(v_axis);
+    const double distance = normal.dot(origin);
+    if (std::abs(distance) < 1e-6) continue;  // seen edge-on
+    SeenRectangle seen;
+    seen.surface = static_cast<int>(i);
+    seen.inverse_depth = (normal / distance).cast<float>();
+    seen.u_axis = u_axis.cast<float>();
+    seen.v_axis = v_axis.cast<float>();
+    seen.u = static_cast<float>(-u_axis.dot(origin));
+    seen.v = static_cast<float>(-v_axis.dot(origin));
+    seen.width = static_cast<float>(r.width);
+    seen.height = static_cast<float>(r.height);
+    seen.corners = {origin, origin + r.width * u_axis, origin + r.width * u_axis + r.height * v_axis,
+                    origin + r.height * v_axis};
+    all.push_back(seen);
+  }
+  return all;
+}
+
+std::vector<const Renderer::SeenRectangle*> Renderer::candidates(
+    const Tile& tile, const std::vector<SeenRectangle>& seen) const {
+  std::vector<const SeenRectangle*> result;
+  for (const SeenRectangle& rectangle : seen) {
+    bool outside = false;
+    for (std::size_t side = 0; tile.bounded && !outside && side < 4; ++side) {
+      // The points beyond a shifted plane form a convex cone: with all corners the whole rectangle is in it.
+      outside = std::all_of(
+          rectangle.corners.begin(), rectangle.corners.end(),
+          [&](const Eigen::Vector3d& p) { return tile.normals[side].dot(p) < tile.slacks[side] * p.norm(); });
+    }
+    if (!outside) result.push_back(&rectangle);
+  }
+  // Nearest first, so that the others need no more than a look at their depth.
+  std::stable_sort(result.begin(), result.end(), [&](const SeenRectangle* a, const SeenRectangle* b) {
+    return a->inverse_depth.dot(tile.middle) > b->inverse_depth.dot(tile.middle);
+  });
+  return result;
+}
+
+int Renderer::nearest(const std::vector<const SeenRectangle*>& candidates, const Eigen::Vector3f& ray) {
+  int best = kNothing;
+  float best_inverse = 0.0F;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const SeenRectangle& seen = *candidates[i];
+    const float inverse = seen.inverse_depth.dot(ray);
+    if (!(inverse > best_inverse)) continue;
+    const float distance = 1.0F / inverse;
+    const float u = seen.u + distance * seen.u_axis.dot(ray);
+    if (!(u >= 0.0F && u <= seen.width)) continue;
+    const float v = seen.v + distance * seen.v_axis.dot(ray);
+    if (!(v >= 0.0F && v <= seen.height)) continue;
+    best = static_cast<int>(i);
+    best_inverse = inverse;
+  }
+  return best;
+}
+
+float Renderer::shade(const SeenRectangle& seen, const Eigen::Vector3f& ray, const PixelRay& pixel) const {
+  const float distance = 1.0F / seen.inverse_depth.dot(ray);
+  const float along_u = seen.u_axis.dot(ray);
+  const float along_v = seen.v_axis.dot(ray);
+  const auto footprint = [&](const Eigen::Vector3f& step) {
+    const float farther = -distance * distance * seen.inverse_depth.dot(step);
+    return Eigen::Vector2f(distance * seen.u_axis.dot(step) + farther * along_u,
+                           distance * seen.v_axis.dot(step) + farther * along_v);
+  };
+  const Eigen::Vector2f per_x = footprint(pixel.per_x);
+  const Eigen::Vector2f per_y = footprint(pixel.per_y);
+  const float u = std::min(std::max(seen.u + distance * along_u, 0.0F), seen.width);
+  const float v = std::min(std::max(seen.v + distance * along_v, 0.0F), seen.height);
+  return world_.textures[static_cast<std::size_t>(seen.surface)].gray(u, v, {per_x.x(), per_y.x()},
+                                                                      {per_x.y(), per_y.y()});
+}
+
+float Renderer::shadeOutline(const std::vector<const SeenRectangle*>& candidates, const PixelRay& pixel,
+                             std::size_t views) const {
+  const OutlineLattice lattice = outlineLattice(views);
+  struct Part {
+    int candidate;
+    int samples;
+    Eigen::Vector2f sum;
+  };
+  std::array<Part, kMostOutlineSamples> parts{};
+  std::size_t count = 0;
+  for (int i = 0; i < lattice.samples; ++i) {
+    const Eigen::Vector2f offset = lattice.offset(i);
+    const int candidate =
+        nearest(candidates, pixel.ray + offset.x() * pixel.per_x + offset.y() * pixel.per_y);
+    if (candidate == kNothing) continue;
+    std::size_t k = 0;
+    while (k < count && parts[k].candidate != candidate) ++k;
+    if (k == count) parts[count++] = {candidate, 0, Eigen::Vector2f::Zero()};
+    ++parts[k].samples;
+    parts[k].sum += offset;
+  }
+  float gray = 0.0F;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto samples = static_cast<float>(parts[k].samples);
+    const Eigen::Vector2f offset = parts[k].sum / samples;
+    const Eigen::Vector3f ray = pixel.ray + offset.x() * pixel.per_x + offset.y() * pixel.per_y;
+    gray += samples * shade(*candidates[static_cast<std::size_t>(parts[k].candidate)], ray, pixel);
+  }
+  return gray / static_cast<float>(lattice.samples);
+}
+
+bool Renderer::onOutline(int x, int y) const {
+  const int own = surface_(y, x);
+  for (int j = std::max(0, y - 1); j <= std::min(size_.height - 1, y + 1); ++j) {
+    for (int i = std::max(0, x - 1); i <= std::min(size_.width - 1, x + 1); ++i) {
+      if (surface_(j, i) != own) return true;
+    }
+  }
+  return false;
+}
+
+cv::Mat Renderer::render(const std::vector<View>& views) {
+  cv::Mat_<float> radiance(size_, 0.0F);
+  const float share = 1.0F / static_cast<float>(views.size());
+  for (const View& view : views) {
+    const std::vector<SeenRectangle> seen = see(view);
+    std::vector<std::vector<const SeenRectangle*>> tile_candidates(tiles_.size());
+    const auto forEachPixel = [&](std::size_t number, const auto& body) {
+      const cv::Rect& area = tiles_[number].pixels;
+      for (int y = area.y; y < area.y + area.height; ++y) {
+        for (int x = area.x; x < area.x + area.width; ++x) body(x, y, rayAt(x, y));
+      }
+    };
+    parallelTiles([&](std::size_t number) {
+      tile_candidates[number] = candidates(tiles_[number], seen);
+      const auto& near = tile_candidates[number];
+      forEachPixel(number, [&](int x, int y, const PixelRay& pixel) {
+        const int candidate = nearest(near, pixel.ray);
+        surface_(y, x) =
+            candidate == kNothing ? kNothing : near[static_cast<std::size_t>(candidate)]->surface;
+      });
+    });
+    parallelTiles([&](std::size_t number) {
+      const auto& near = tile_candidates[number];
+      const SeenRectangle* last = nullptr;
+      forEachPixel(number, [&](int x, int y, const PixelRay& pixel) {
+        if (onOutline(x, y)) {
+          radiance(y, x) += share * shadeOutline(near, pixel, views.size());
+          return;
+        }
+        const int surface = surface_(y, x);
+        if (surface == kNothing) return;
+        if (last == nullptr || last->surface != surface) {
+          last = *std::find_if(near.begin(), near.end(),
+                               [&](const SeenRectangle* s) { return s->surface == surface; });
+        }
+        radiance(y, x) += share * shade(*last, pixel.ray, pixel);
+      });
+    });
+  }
+  return std::move(radiance);
+}
+
+}  // namespace tet_line_tracker

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <opencv2/core.hpp>
+
+#include "tet_line_tracker/camera_model.h"
+#include "world.h"
+
+namespace tet_line_tracker {
+
+/// Where the camera is at one moment.
+struct View {
+  Eigen::Isometry3d world_from_camera;
+  std::int64_t stamp_ns{0};  ///< places moving bodies
+};
+
+/// Renders a world through a camera model by casting a ray per pixel. Textures are averaged over the pixel's
+/// footprint on them; pixels on an outline are sampled many times. The result does not depend on the number
+/// of threads.
+class Renderer {
+ public:
+  /// The world must outlive the renderer. The camera's calibration must say its size. Throws
+  /// std::invalid_argument when it does not.
+  Renderer(std::shared_ptr<const CameraModel> camera, const World& world, int threads);
+
+  /// Mean radiance over the views (several: motion blur), CV_32FC1, 8-bit gray levels. Pixels that the model
+  /// maps to no ray are 0.
+  cv::Mat render(const std::vector<View>& views);
+
+ private:
+  struct PixelRay {
+    Eigen::Vector3f ray;           // unit, NaN where there is none
+    Eigen::Vector3f per_x, per_y;  // its change from pixel to pixel
+  };
+  /// Square of pixels, with planes through the camera that enclose all its rays.
+  struct Tile {
+    cv::Rect pixels;
+    bool bounded{false};
+    std::array<Eigen::Vector3d, 4> normals;
+    std::array<double, 4> slacks;  // a ray r of the tile has normal.dot(r) >= slack
+    Eigen::Vector3f middle;
+  };
+  /// A rectangle as the camera of one view sees it; d is any ray of the camera.
+  struct SeenRectangle {
+    int surface;
+    Eigen::Vector3f inverse_depth;  // inverse_depth.dot(d) = 1 / distance along d
+    Eigen::Vector3f u_axis, v_axis;
+    float u, v;  // of the camera's foot on the plane
+    float width, height;
+    std::array<Eigen::Vector3d, 4> corners;
+  };
+
+  const PixelRay& rayAt(int x, int y) const {
+    return rays_[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width) +
+                 static_cast<std::size_t>(x)];
+  }
+  void makeRays(const CameraModel& camera);
+  void makeTiles();
+  void boundTiles();
+  void parallelTiles(const std::function<void(std::size_t)>& body) const;
+  std::vector<SeenRectangle> see(const View& view) const;
+  std::vector<const SeenRectangle*> candidates(const Tile& tile,
+                                               const std::vector<SeenRectangle>& seen) const;
+  /// Position in `candidates` of the nearest one, -1: none.
+  static int nearest(const std::vector<const SeenRectangle*>& candidates, const Eigen::Vector3f& ray);
+  float shade(const SeenRectangle& seen, const Eigen::Vector3f& ray, const PixelRay& pixel) const;
+  float shadeOutline(const std::vector<const SeenRectangle*>& candidates, const PixelRay& pixel,
+                     std::size_t views) const;
+  bool onOutline(int x, int y) const;
+
+  std::shared_ptr<const CameraModel> camera_;
+  const World& world_;
+  int threads_;
+  cv::Size size_;
+  std::vector<PixelRay> rays_;
+  std::vector<Tile> tiles_;
+  cv::Mat_<std::int32_t> surface_;  // nearest at each pixel's centre
+};
+
+}  // namespace tet_line_tracker

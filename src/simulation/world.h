@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "scene_geometry.h"
+#include "texture.h"
+
+namespace tet_line_tracker {
+
+/// A simulated world: z is up, lengths in metres.
+struct World {
+  SceneGeometry geometry;
+  std::vector<Texture> textures;  ///< one per rectangle of the geometry
+
+  /// A box in which a camera meets nothing.
+  Eigen::Vector3d free_centre;
+  Eigen::Vector3d free_half_extent;
+
+  /// From where, and in which direction about z [rad], a camera that looks level sees a bare wall alone
+  /// (when the world was asked to have one).
+  Eigen::Vector3d bare_wall_view;
+  double bare_wall_yaw{0.0};
+
+  /// Gray of a point of a surface, mean over a square of `side` around it [m].
+  float gray(const SurfacePoint& point, float side) const {
+    const PixelWeight weight = PixelWeight::box(0.5F * side);
+    return textures[static_cast<std::size_t>(point.surface)].gray(
+        static_cast<float>(point.position.x()), static_cast<float>(point.position.y()), weight, weight);
+  }
+};
+
+struct WorldOptions {
+  std::string scene{"room"};         ///< room, corridor, empty
+  std::uint64_t seed{1};             ///< grays, sizes and places
+  double corridor_length{34.0};      ///< [m]
+  bool bare_wall{false};             ///< leave a stretch of wall bare, for bare_wall_view
+  bool moving_object{false};         ///< a crate that swings to and fro
+  std::int64_t motion_origin_ns{0};  ///< stamp at which the crate is in the middle
+};
+
+/// Throws std::invalid_argument for an unknown scene.
+World makeWorld(const WorldOptions& options);
+
+}  // namespace tet_line_tracker

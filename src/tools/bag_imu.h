@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <rosbag/bag.h>
+#include <Eigen/Core>
+
+#include "tet_line_tracker/line_tracker.h"
+
+namespace tet_line_tracker {
+
+/// An IMU topic of a bag, read whole and handed out image by image.
+class BagImu {
+ public:
+  BagImu(const rosbag::Bag& bag, std::string topic);
+
+  /// Gives `tracker` the rotation from the IMU's frame to `camera_frame`: `given` if there is one, else by
+  /// /tf_static and /tf of the bag. When neither tells it: a warning.
+  void setRotation(const std::string& camera_frame, const std::optional<Eigen::Matrix3d>& given,
+                   LineTracker& tracker) const;
+
+  /// Gives `tracker` what it has not had yet up to the stamp of an image and one after it.
+  void feed(std::int64_t stamp_ns, LineTracker& tracker);
+
+ private:
+  const rosbag::Bag& bag_;
+  std::string topic_, frame_;
+  std::vector<std::pair<std::int64_t, Eigen::Vector3d>> samples_;  ///< angular velocities by stamp
+  std::size_t next_{0};
+};
+
+}  // namespace tet_line_tracker

@@ -1,0 +1,66 @@
+#include "line_bag.h"
+
+#include <stdexcept>
+#include <unordered_map>
+
+#include <rosbag/query.h>
+#include <rosbag/view.h>
+
+#include "../ros/messages.h"
+#include "tet_line_tracker/TrackingStatistics.h"
+
+namespace tet_line_tracker {
+namespace {
+
+void takeTimes(const TrackingStatistics& message, LineFrame& frame) {
+  FrameStatistics& times = frame.statistics;
+  times.pyramid_ms = message.pyramid_ms;
+  times.prior_ms = message.prior_ms;
+  times.flow_ms = message.flow_ms;
+  times.refine_ms = message.refine_ms;
+  times.detect_ms = message.detect_ms;
+  times.undistort_ms = message.undistort_ms;
+  times.total_ms = message.total_ms;
+}
+
+}  // namespace
+
+void openForReading(rosbag::Bag& bag, const std::string& path) {
+  try {
+    bag.open(path, rosbag::bagmode::Read);
+  } catch (const std::exception& error) {
+    throw std::runtime_error("cannot read " + path + ": " + error.what());
+  }
+}
+
+LineBag readLines(const rosbag::Bag& bag, const std::string& topic) {
+  LineBag lines;
+  std::unordered_map<std::int64_t, std::size_t> frame_of_stamp;
+  rosbag::View line_view(bag, rosbag::TopicQuery(topic));
+  for (const rosbag::MessageInstance& instance : line_view) {
+    const auto message = instance.instantiate<LineArray>();
+    if (!message) {
+      throw std::runtime_error(topic + " of " + bag.getFileName() + " holds " + instance.getDataType() +
+                               ", not tet_line_tracker/LineArray");
+    }
+    lines.frames.push_back(toLineFrame(*message));
+    frame_of_stamp[lines.frames.back().stamp_ns] = lines.frames.size() - 1;
+  }
+  if (lines.frames.empty()) throw std::runtime_error("no lines on " + topic + " in " + bag.getFileName());
+
+  std::size_t with_times = 0;
+  const std::string statistics_topic = topic.substr(0, topic.rfind('/') + 1) + "statistics";
+  rosbag::View statistics_view(bag, rosbag::TopicQuery(statistics_topic));
+  for (const rosbag::MessageInstance& instance : statistics_view) {
+    const auto message = instance.instantiate<TrackingStatistics>();
+    if (!message) continue;
+    const auto frame = frame_of_stamp.find(static_cast<std::int64_t>(message->header.stamp.toNSec()));
+    if (frame == frame_of_stamp.end()) continue;
+    takeTimes(*message, lines.frames[frame->second]);
+    ++with_times;
+  }
+  lines.has_statistics = with_times == lines.frames.size();
+  return lines;
+}
+
+}  // namespace tet_line_tracker

@@ -1,0 +1,151 @@
+// Makes a map of lines in space from the lines and poses of a bag.
+
+#include <cstdio>
+#include <optional>
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <tf2/buffer_core.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "../ros/map_messages.h"
+#include "../ros/messages.h"
+#include "../simulation/scene_geometry.h"
+#include "bag_writer.h"
+#include "line_bag.h"
+#include "parameter_arguments.h"
+#include "program.h"
+#include "sequence_bag.h"
+
+namespace tet_line_tracker {
+namespace {
+
+namespace po = boost::program_options;
+
+struct Arguments {
+  std::string input, output, lines_topic, world, camera;
+  double period_s{1.0};
+};
+
+/// All transforms of a bag, however long it is.
+void readTransforms(const rosbag::Bag& bag, tf2::BufferCore* transforms) {
+  rosbag::View view(bag, rosbag::TopicQuery(
+                             std::vector<std::string>{sequence_bag::kTfTopic, sequence_bag::kStaticTfTopic}));
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto message = instance.instantiate<tf2_msgs::TFMessage>();
+    if (!message) continue;
+    for (const geometry_msgs::TransformStamped& transform : message->transforms) {
+      transforms->setTransform(transform, "bag", instance.getTopic() == sequence_bag::kStaticTfTopic);
+    }
+  }
+}
+
+/// The truth and the transforms travel along, so that one bag is enough to look at the map and to judge it.
+void copyContext(const rosbag::Bag& input, BagWriter* output) {
+  rosbag::View view(
+      input, rosbag::TopicQuery(std::vector<std::string>{sequence_bag::kTfTopic, sequence_bag::kStaticTfTopic,
+                                                         sequence_bag::kPoseTopic, kSceneTopic}));
+  for (const rosbag::MessageInstance& instance : view) {
+    output->write(instance.getTopic(), instance.getTime(), instance);
+  }
+}
+
+void mapBag(const Arguments& arguments, const LineMapperParameters& parameters) {
+  rosbag::Bag input;
+  openForReading(input, arguments.input);
+  tf2::BufferCore transforms(ros::Duration(1e8));
+  readTransforms(input, &transforms);
+
+  LineMapper mapper(parameters);
+  BagWriter output(arguments.output);
+  copyContext(input, &output);
+  rosbag::View view(input, rosbag::TopicQuery(arguments.lines_topic));
+  std_msgs::Header header;
+  header.frame_id = arguments.world;
+  ros::Time next_map;
+  std::size_t images = 0;
+  std::size_t without_pose = 0;
+  std::string problem;
+  const auto writeMap = [&] {
+    const Line3DArray map = toLine3DArray(mapper.lines(), header);
+    output.write(sequence_bag::kMapTopic, header.stamp, map);
+    output.write(sequence_bag::kMapMarkerTopic, header.stamp, toMapMarker(map));
+  };
+  ProgressBar progress(view.size());
+  for (const rosbag::MessageInstance& instance : view) {
+    throwIfInterrupted();
+    progress.advance();
+    const auto lines = instance.instantiate<LineArray>();
+    if (!lines) continue;
+    ++images;
+    const std::string& camera = arguments.camera.empty() ? lines->header.frame_id : arguments.camera;
+    const CameraPose pose = lookUpPose(transforms, arguments.world, camera, lines->header.stamp);
+    if (!pose.world_from_camera) {
+      if (without_pose++ == 0) problem = pose.problem;
+      continue;
+    }
+    mapper.add(toLineFrame(*lines), *pose.world_from_camera);
+    header.stamp = lines->header.stamp;
+    if (header.stamp >= next_map) {
+      writeMap();
+      next_map = header.stamp + ros::Duration(arguments.period_s);
+    }
+  }
+  if (images == 0) throw std::runtime_error(arguments.input + " has no lines on " + arguments.lines_topic);
+  if (without_pose == images) throw std::runtime_error(arguments.input + ": " + problem);
+  mapper.finish();
+  writeMap();
+  output.close();
+
+  const LineMapper::Rejected& rejected = mapper.rejected();
+  std::printf("%zu images, %zu of them without a pose, %zu lines in the map\n", images, without_pose,
+              mapper.finishedLines());
+  if (without_pose > 0) std::printf("first image without a pose: %s\n", problem.c_str());
+  std::printf(
+      "tracks not in the map: %lu with too few views, %lu without parallax, %lu off their images, %lu not "
+      "sure "
+      "enough, %lu without ends\n",
+      static_cast<unsigned long>(rejected.few_views), static_cast<unsigned long>(rejected.parallax),
+      static_cast<unsigned long>(rejected.reprojection), static_cast<unsigned long>(rejected.sigma),
+      static_cast<unsigned long>(rejected.ends));
+}
+
+int run(int argc, char** argv) {
+  Arguments arguments;
+  std::string config;
+  std::vector<std::string> settings;
+  po::options_description options;
+  // clang-format off
+  options.add_options()
+      ("input", po::value(&arguments.input)->required())
+      ("output", po::value(&arguments.output)->required())
+      ("lines", po::value(&arguments.lines_topic)->default_value(sequence_bag::kLinesTopic), "topic of the lines")
+      ("world", po::value(&arguments.world)->default_value(sequence_bag::kWorldFrame), "frame of the map")
+      ("camera", po::value(&arguments.camera), "frame of the camera (default: as the lines say)")
+      ("period", po::value(&arguments.period_s)->default_value(1.0), "from one map in the output to the next [s]")
+      ("config", po::value(&config), "YAML file with parameters, as for the nodelet LineMapper")
+      ("set", po::value(&settings)->composing(), "name=value: one parameter; may be given again");
+  // clang-format on
+  po::positional_options_description positional;
+  positional.add("input", 1).add("output", 1);
+  po::variables_map values;
+  if (!parseCommandLine(
+          argc, argv,
+          "map_bag IN.bag OUT.bag [options]\n\nMakes lines in space from the lines of track_bag and "
+          "the poses on /tf, and writes them to /line_mapper/lines.",
+          options, positional, values)) {
+    return 0;
+  }
+  LineMapperParameters parameters;
+  ParameterTable table = tableOf(parameters);
+  setParameters(config, settings, table);
+  mapBag(arguments, parameters);
+  return 0;
+}
+
+}  // namespace
+}  // namespace tet_line_tracker
+
+int main(int argc, char** argv) {
+  return tet_line_tracker::runProgram("map_bag", [&] { return tet_line_tracker::run(argc, argv); });
+}

@@ -1,0 +1,91 @@
+#include "program.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <stdexcept>
+
+namespace tet_line_tracker {
+namespace {
+
+volatile std::sig_atomic_t signal_seen = 0;
+
+void onSignal(int) {
+  signal_seen = 1;
+}
+
+}  // namespace
+
+bool interrupted() {
+  return signal_seen != 0;
+}
+
+void throwIfInterrupted() {
+  if (interrupted()) throw std::runtime_error("interrupted, nothing was written");
+}
+
+int runProgram(const std::string& name, const std::function<int()>& body) {
+  std::signal(SIGINT, onSignal);
+  std::signal(SIGTERM, onSignal);
+  try {
+    return body();
+  } catch (const boost::program_options::error& error) {
+    std::cerr << name << ": " << error.what() << "; see " << name << " --help\n";
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << name << ": " << error.what() << "\n";
+    return 1;
+  }
+}
+
+bool parseCommandLine(int argc, char** argv, const std::string& usage,
+                      boost::program_options::options_description options,
+                      const boost::program_options::positional_options_description& positional,
+                      boost::program_options::variables_map& values) {
+  namespace po = boost::program_options;
+  po::options_description visible("Options");
+  for (const auto& option : options.options()) {
+    bool is_positional = false;
+    for (unsigned i = 0; i < positional.max_total_count() && i < 100U; ++i) {
+      is_positional = is_positional || positional.name_for_position(i) == option->long_name();
+    }
+    if (!is_positional) visible.add(option);
+  }
+  visible.add_options()("help,h", "this text");
+  options.add_options()("help,h", "this text");
+  // A guess at an abbreviated option would hide a typing error.
+  const int style = po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
+  po::store(po::command_line_parser(argc, argv).options(options).positional(positional).style(style).run(),
+            values);
+  if (values.count("help") != 0) {
+    std::cout << "usage: " << usage << "\n\n" << visible;
+    return false;
+  }
+  po::notify(values);
+  return true;
+}
+
+ProgressBar::ProgressBar(std::size_t total) : total_(total), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+ProgressBar::~ProgressBar() {
+  if (terminal_ && shown_percent_ >= 0) std::fputc('\n', stderr);
+}
+
+void ProgressBar::advance() {
+  ++done_;
+  if (!terminal_ || total_ == 0) return;
+  const int percent = static_cast<int>(100 * done_ / total_);
+  if (percent == shown_percent_) return;
+  shown_percent_ = percent;
+  std::string bar(50, ' ');
+  bar.replace(0, static_cast<std::size_t>(std::min(50, percent / 2)),
+              static_cast<std::size_t>(std::min(50, percent / 2)), '=');
+  std::fprintf(stderr, "\r[%s] %3d %%", bar.c_str(), percent);
+  std::fflush(stderr);
+}
+
+}  // namespace tet_line_tracker

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+#include <boost/program_options.hpp>
+
+namespace tet_line_tracker {
+
+/// Set by Ctrl-C while a program runs under runProgram(); long loops check it through throwIfInterrupted().
+bool interrupted();
+/// Throws std::runtime_error("interrupted") after Ctrl-C, so that destructors clean up half-written output.
+void throwIfInterrupted();
+
+/// Runs the body of a command-line program: one sentence on stderr and exit status 1 for each exception that
+/// leaves `body`, 2 for wrong usage (boost::program_options::error).
+int runProgram(const std::string& name, const std::function<int()>& body);
+
+/// Parses the command line. With --help prints `usage` and the options and gives false.
+bool parseCommandLine(int argc, char** argv, const std::string& usage,
+                      boost::program_options::options_description options,
+                      const boost::program_options::positional_options_description& positional,
+                      boost::program_options::variables_map& values);
+
+/// A progress bar on stderr while it is a terminal, nothing otherwise.
+class ProgressBar {
+ public:
+  explicit ProgressBar(std::size_t total);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void advance();
+
+ private:
+  std::size_t total_;
+  std::size_t done_{0};
+  int shown_percent_{-1};
+  bool terminal_;
+};
+
+}  // namespace tet_line_tracker

@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include <std_msgs/String.h>
+
+#include "../simulation/simulation.h"
+#include "program.h"
+#include "sequence_bag.h"
+#include "tet_line_tracker/calibration_file.h"
+
+namespace po = boost::program_options;
+using namespace tet_line_tracker;
+
+namespace {
+
+struct Arguments {
+  std::string out;
+  std::string camera_info;
+  SimulationOptions simulation;
+  bool no_imu{false};
+  bool noise_free_imu{false};
+};
+
+ros::Time toRosTime(std::int64_t stamp_ns) {
+  ros::Time stamp;
+  return stamp.fromNSec(static_cast<std::uint64_t>(stamp_ns));
+}
+
+void writeImuSamples(SequenceBag& bag, const Simulation& simulation, const Arguments& arguments) {
+  constexpr double kRate = 200.0;   // [Hz]
+  constexpr double kMargin = 0.05;  // before the first image and after the last [s]
+  InertialErrors errors(arguments.simulation.seed, kRate);
+  const double end_s = simulation.timeOf(simulation.imageStamp(simulation.imageCount() - 1)) + kMargin;
+  const int count = static_cast<int>(std::ceil((end_s + kMargin) * kRate)) + 1;
+  for (int i = 0; i < count; ++i) {
+    const double time_s = i / kRate - kMargin;
+    const InertialSample ideal = idealInertialSample(simulation.trajectory(), defaultCameraFromImu(), time_s);
+    const InertialSample sample = arguments.noise_free_imu ? ideal : errors.apply(ideal);
+    bag.writeImu(toRosTime(simulation.stampAt(time_s)), sample.angular_velocity, sample.acceleration);
+  }
+}
+
+int simulate(const Arguments& arguments) {
+  const CameraCalibration camera = arguments.camera_info.empty()
+                                       ? defaultSimulatedCamera()
+                                       : readCalibrationFile(arguments.camera_info).camera;
+  Simulation simulation(arguments.simulation, makeCameraModel(camera));
+  const ros::Time first_stamp = toRosTime(simulation.imageStamp(0));
+  // The IMU begins a little earlier, and transforms come before all that needs them.
+  const ros::Time transform_stamp = first_stamp - SequenceBag::kCameraInfoLead;
+  SequenceBag bag(arguments.out, camera,
+                  arguments.no_imu ? std::nullopt : std::make_optional(defaultCameraFromImu()),
+                  transform_stamp);
+  std_msgs::String scene;
+  scene.data = simulation.geometry().toText();
+  bag.write(kSceneTopic, transform_stamp, scene);
+  if (!arguments.no_imu) writeImuSamples(bag, simulation, arguments);
+
+  const int count = simulation.imageCount();
+  ProgressBar progress(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    throwIfInterrupted();
+    const std::int64_t stamp_ns = simulation.imageStamp(i);
+    const ros::Time stamp = toRosTime(stamp_ns);
+    bag.writePose(stamp, simulation.trajectory().worldFromCamera(simulation.timeOf(stamp_ns)));
+    bag.writeImage(stamp, simulation.nextImage());
+    progress.advance();
+  }
+  bag.close();
+  return 0;
+}
+
+int run(int argc, char** argv) {
+  Arguments arguments;
+  SimulationOptions& simulation = arguments.simulation;
+  po::options_description options;
+  options.add_options()("out", po::value(&arguments.out)->required(), "bag to write");
+  options.add_options()("scene", po::value(&simulation.scene),
+                        "room, corridor or empty (default: what suits the motion)");
+  options.add_options()("motion", po::value(&simulation.motion)->default_value(simulation.motion),
+                        "slow, fast, corridor, shake, rotation or still");
+  options.add_options()("light", po::value(&simulation.light)->default_value(simulation.light),
+                        "normal, or a list of low, gain_jumps, drift (low,drift)");
+  options.add_options()("seconds", po::value(&simulation.seconds)->default_value(simulation.seconds),
+                        "from the first image to the last [s]");
+  options.add_options()("rate", po::value(&simulation.rate_hz)->default_value(simulation.rate_hz),
+                        "images per second [Hz]");
+  options.add_options()("seed", po::value(&simulation.seed)->default_value(simulation.seed),
+                        "of all that is random");
+  options.add_options()("moving-object", po::bool_switch(&simulation.moving_object),
+                        "a crate swings to and fro in view");
+  options.add_options()("textureless-phase", po::bool_switch(&simulation.textureless_phase),
+                        "the camera looks at a bare wall for 1.5 s in the middle");
+  options.add_options()("camera-info", po::value(&arguments.camera_info)->value_name("FILE"),
+                        "calibration of the camera (default: EuRoC's cam0)");
+  options.add_options()("no-imu", po::bool_switch(&arguments.no_imu), "write no IMU and no extrinsics");
+  options.add_options()("noise-free-imu", po::bool_switch(&arguments.noise_free_imu),
+                        "IMU without noise and bias");
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  options.add_options()("threads", po::value(&simulation.threads)->default_value(cores),
+                        "for rendering; the bag does not depend on it");
+  po::positional_options_description positional;
+  positional.add("out", 1);
+  po::variables_map values;
+  if (!parseCommandLine(argc, argv, "simulate_bag OUT.bag [options]", options, positional, values)) return 0;
+  return simulate(arguments);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return runProgram("simulate_bag", [&] { return run(argc, argv); });
+}

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tet_line_tracker/line_tracker.h"
+
+namespace tet_line_tracker {
+
+/// Times of each stage over all images.
+class TimeTable {
+ public:
+  void add(const FrameStatistics& statistics);
+  /// Mean, median, 99th percentile and maximum of each stage [ms], to the standard output.
+  void print();
+
+ private:
+  void add(const std::string& stage, double ms);
+
+  std::map<std::string, std::vector<double>> times_;
+  std::vector<std::string> order_;
+};
+
+}  // namespace tet_line_tracker

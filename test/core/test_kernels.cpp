@@ -1,0 +1,137 @@
+#include "kernels/kernels.h"
+
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace tet_line_tracker {
+namespace kernels {
+namespace {
+
+constexpr int kWidth = 64;
+constexpr int kHeight = 64;
+
+std::vector<std::uint8_t> noise() {
+  std::mt19937 generator(3);
+  std::vector<std::uint8_t> pixels(kWidth * kHeight);
+  for (std::uint8_t& pixel : pixels) pixel = static_cast<std::uint8_t>(generator() & 255U);
+  return pixels;
+}
+
+struct Template {
+  explicit Template(const PatchShape& shape) : values(static_cast<std::size_t>(3 * shape.floats()), 0.0F) {
+    patch.gray = values.data();
+    patch.gradient_x = values.data() + shape.floats();
+    patch.gradient_y = values.data() + 2 * shape.floats();
+  }
+  std::vector<float> values;
+  PatchTemplate patch{};
+};
+
+std::vector<float> read(const KernelTable& table, const std::vector<std::uint8_t>& image, int x, int y,
+                        float fx, float fy, const PatchShape& shape) {
+  std::vector<float> patch(static_cast<std::size_t>(shape.floats() + kLanes), 0.0F);
+  table.readPatch({image.data() + y * kWidth + x, kWidth, fx, fy}, shape, patch.data());
+  return patch;
+}
+
+TEST(Kernels, ReadAPatchByBilinearInterpolation) {
+  const std::vector<std::uint8_t> image = noise();
+  const PatchShape shape = PatchShape::ofSide(7);
+  const std::vector<float> patch = read(active(), image, 11, 20, 0.3F, 0.8F, shape);
+  for (int y = 0; y < 7; ++y) {
+    for (int x = 0; x < 7; ++x) {
+      const auto at = [&image](int px, int py) { return static_cast<float>(image[py * kWidth + px]); };
+      const float upper = 0.7F * at(11 + x, 20 + y) + 0.3F * at(12 + x, 20 + y);
+      const float lower = 0.7F * at(11 + x, 21 + y) + 0.3F * at(12 + x, 21 + y);
+      EXPECT_NEAR(patch[y * kLanes + x], 0.2F * upper + 0.8F * lower, 1e-3F);
+    }
+  }
+}
+
+TEST(Kernels, ATemplateThatIsProjectedIsBlindToGainAndOffset) {
+  const std::vector<std::uint8_t> image = noise();
+  const PatchShape shape = PatchShape::ofSide(7);
+  Template made(shape);
+  active().makeTemplate(read(active(), image, 10, 10, 0.0F, 0.0F, PatchShape::ofSide(9)).data(), shape, true,
+                        &made.patch);
+  // The same pixels through another gain and offset.
+  std::vector<std::uint8_t> brighter(image.size());
+  for (std::size_t i = 0; i < image.size(); ++i) brighter[i] = static_cast<std::uint8_t>(image[i] / 2 + 40);
+  std::vector<float> patch(static_cast<std::size_t>(shape.floats()));
+  AlignmentSums sums{};
+  active().align({brighter.data() + 11 * kWidth + 11, kWidth, 0.0F, 0.0F}, shape, made.patch, patch.data(),
+                 &sums);
+  // What stays is the rounding of image / 2.
+  EXPECT_NEAR(sums.i_x / made.patch.xx, 0.0F, 5e-3F);
+  EXPECT_NEAR(sums.i_y / made.patch.yy, 0.0F, 5e-3F);
+  EXPECT_NEAR(sums.i_gray / made.patch.gray_gray, 0.5F, 5e-3F);
+}
+
+TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
+  int count = 0;
+  const KernelTable* const* tables = available(&count);
+  const std::vector<std::uint8_t> image = noise();
+  for (int t = 1; t < count; ++t) {
+    for (const int side : {3, 7, 9, 15, 21}) {
+      const PatchShape shape = PatchShape::ofSide(side);
+      const PatchShape larger = PatchShape::ofSide(side + 2);
+      for (const bool project : {false, true}) {
+        Template a(shape), b(shape);
+        tables[0]->makeTemplate(read(*tables[0], image, 5, 6, 0.37F, 0.61F, larger).data(), shape, project,
+                                &a.patch);
+        tables[t]->makeTemplate(read(*tables[t], image, 5, 6, 0.37F, 0.61F, larger).data(), shape, project,
+                                &b.patch);
+        ASSERT_EQ(std::memcmp(a.values.data(), b.values.data(), a.values.size() * sizeof(float)), 0) << side;
+        EXPECT_EQ(a.patch.xx, b.patch.xx);
+        EXPECT_EQ(a.patch.gray_x, b.patch.gray_x);
+        std::vector<float> patch_a(static_cast<std::size_t>(shape.floats())), patch_b(patch_a);
+        AlignmentSums sums_a{}, sums_b{};
+        const PatchPlace place{image.data() + 9 * kWidth + 7, kWidth, 0.12F, 0.93F};
+        tables[0]->align(place, shape, a.patch, patch_a.data(), &sums_a);
+        tables[t]->align(place, shape, b.patch, patch_b.data(), &sums_b);
+        EXPECT_EQ(std::memcmp(&sums_a, &sums_b, sizeof sums_a), 0) << side;
+        EXPECT_EQ(patch_a, patch_b);
+        EXPECT_EQ(tables[0]->absoluteDifference(patch_a.data(), shape, a.patch, 0.9F, 3.0F),
+                  tables[t]->absoluteDifference(patch_b.data(), shape, b.patch, 0.9F, 3.0F));
+      }
+    }
+    for (const int count : {7, 13, kMaxProfile}) {
+      ProfileBatch batch{};
+      for (int lane = 0; lane < kLanes; ++lane) {
+        batch.pixels[lane] = image.data() + lane * 3 * kWidth + 5 * lane;
+        batch.centre[lane] = 0.5F * static_cast<float>(count) + 0.1F * static_cast<float>(lane);
+      }
+      batch.step = kWidth;
+      batch.count = count;
+      batch.polarity = -1.0F;
+      batch.distance_scale = 0.3F;
+      batch.peak_share = 0.4F;
+      float places_a[kLanes], places_b[kLanes], slopes_a[kLanes], slopes_b[kLanes], sums_a[5], sums_b[5];
+      tables[0]->findEdges(batch, places_a, slopes_a);
+      tables[t]->findEdges(batch, places_b, slopes_b);
+      EXPECT_EQ(std::memcmp(places_a, places_b, sizeof places_a), 0) << count;
+      EXPECT_EQ(std::memcmp(slopes_a, slopes_b, sizeof slopes_a), 0) << count;
+      const EdgeSamples samples{places_a, places_b, slopes_a, kLanes};
+      tables[0]->sumOffsets(samples, {5.0F, 0.2F}, 9.0F, 1.0F, sums_a);
+      tables[t]->sumOffsets(samples, {5.0F, 0.2F}, 9.0F, 1.0F, sums_b);
+      EXPECT_EQ(std::memcmp(sums_a, sums_b, sizeof sums_a), 0) << count;
+    }
+    for (int width = 16; width <= kWidth; ++width) {
+      std::vector<std::uint16_t> row(static_cast<std::size_t>(width) + kRowPadding);
+      std::vector<std::uint8_t> a(static_cast<std::size_t>(width)), b(a);
+      const std::uint8_t* above = image.data();
+      tables[0]->halveRow(above, above + kWidth, above + 2 * kWidth, width, row.data(), a.data());
+      tables[t]->halveRow(above, above + kWidth, above + 2 * kWidth, width, row.data(), b.data());
+      EXPECT_EQ(a, b) << width;
+    }
+  }
+  if (count == 1) GTEST_SKIP() << "this processor runs the baseline kernels only";
+}
+
+}  // namespace
+}  // namespace kernels
+}  // namespace tet_line_tracker

@@ -1,0 +1,114 @@
+#include "tet_line_tracker/line_refiner.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace tet_line_tracker {
+namespace {
+
+constexpr int kWidth = 240;
+constexpr int kHeight = 200;
+
+/// A straight edge through `middle` at `angle` [rad], `contrast` gray levels brighter on the left of its
+/// direction, about as sharp as a lens makes it, with Gaussian noise.
+cv::Mat edgeImage(float angle, float contrast, float noise, const Eigen::Vector2f& middle) {
+  std::mt19937 generator(5);
+  std::normal_distribution<float> normal(0.0F, 1.0F);
+  const Eigen::Vector2f left(std::sin(angle), -std::cos(angle));
+  cv::Mat image(kHeight, kWidth, CV_8UC1);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const float distance = left.dot(Eigen::Vector2f(static_cast<float>(x), static_cast<float>(y)) - middle);
+      const float gray = 100.0F + 0.5F * contrast * std::erf(distance / 1.1F) + noise * normal(generator);
+      image.at<std::uint8_t>(y, x) = cv::saturate_cast<std::uint8_t>(gray);
+    }
+  }
+  return image;
+}
+
+LineSegment along(float angle, float length, const Eigen::Vector2f& middle) {
+  const Eigen::Vector2f half = 0.5F * length * Eigen::Vector2f(std::cos(angle), std::sin(angle));
+  return {middle - half, middle + half};
+}
+
+LineRefinerParameters withEnds(bool fit_ends) {
+  LineRefinerParameters parameters;
+  parameters.fit_ends = fit_ends;
+  return parameters;
+}
+
+const Eigen::Vector2f kMiddle(119.3F, 99.6F);
+
+TEST(LineRefiner, PutsALineOnTheEdgeAtAnyAngleToWithinATenthOfAPixel) {
+  const LineRefiner refiner(withEnds(false));
+  for (int degrees = 0; degrees < 360; degrees += 15) {
+    const float angle = static_cast<float>(degrees) * static_cast<float>(M_PI) / 180.0F;
+    const cv::Mat image = edgeImage(angle, 60.0F, 1.0F, kMiddle);
+    const LineSegment truth = along(angle, 80.0F, kMiddle);
+    LineSegment guess = truth;
+    guess.start += 1.4F * truth.normal();
+    guess.end += 0.3F * truth.normal();
+    const EdgeFit fit = refiner.fit(image, guess, refiner.contrastOf(image, guess));
+    EXPECT_GT(fit.support, 0.95F) << degrees;
+    EXPECT_LT(std::abs(truth.distance(fit.segment.start)), 0.1F) << degrees;
+    EXPECT_LT(std::abs(truth.distance(fit.segment.end)), 0.1F) << degrees;
+    EXPECT_GT(fit.sigma_px, 0.0F);
+    EXPECT_LT(fit.sigma_px, 0.1F);
+    // Start and end move along the normal alone.
+    EXPECT_NEAR(fit.segment.length(), truth.length(), 0.5F);
+  }
+}
+
+TEST(LineRefiner, FindsAWeakEdgeInLowLight) {
+  const LineRefiner refiner(withEnds(false));
+  const cv::Mat image = edgeImage(0.4F, 10.0F, 1.0F, kMiddle);
+  const LineSegment truth = along(0.4F, 80.0F, kMiddle);
+  LineSegment guess = truth;
+  guess.start += 0.8F * truth.normal();
+  const EdgeFit fit = refiner.fit(image, guess, refiner.contrastOf(image, guess));
+  EXPECT_GT(fit.support, 0.8F);
+  EXPECT_LT(std::abs(truth.distance(fit.segment.middle())), 0.15F);
+}
+
+TEST(LineRefiner, AnEdgeOfTheOtherPolarityIsNoSupport) {
+  const LineRefiner refiner(withEnds(false));
+  const cv::Mat image = edgeImage(0.4F, 60.0F, 1.0F, kMiddle);
+  const LineSegment truth = along(0.4F, 80.0F, kMiddle);
+  const float contrast = refiner.contrastOf(image, truth);
+  EXPECT_GT(contrast, 5.0F);  // the left side is the brighter one
+  EXPECT_GT(refiner.fit(image, truth, contrast).support, 0.95F);
+  EXPECT_LT(refiner.fit(image, truth, -contrast).support, 0.3F);
+}
+
+TEST(LineRefiner, FlatGrayAndNoiseAreNoSupport) {
+  const LineRefiner refiner(withEnds(false));
+  const LineSegment line = along(0.7F, 80.0F, kMiddle);
+  EXPECT_EQ(refiner.fit(edgeImage(0.7F, 0.0F, 0.0F, kMiddle), line, 10.0F).support, 0.0F);
+  EXPECT_LT(refiner.fit(edgeImage(0.7F, 0.0F, 4.0F, kMiddle), line, 20.0F).support, 0.5F);
+}
+
+TEST(LineRefiner, EndsStopWhereTheEdgeStopsAndFollowItWhereItGoesOn) {
+  const LineRefiner refiner(withEnds(true));
+  cv::Mat image = edgeImage(0.0F, 60.0F, 0.0F, kMiddle);
+  image(cv::Rect(160, 0, kWidth - 160, kHeight)).setTo(100);  // the edge ends at x = 160
+  const LineSegment truth = along(0.0F, 60.0F, kMiddle);
+  const LineSegment too_long{truth.start, {190.0F, kMiddle.y()}};
+  const EdgeFit cut = refiner.fit(image, too_long, 20.0F);
+  EXPECT_NEAR(cut.segment.end.x(), 160.0F, 3.0F);
+  EXPECT_LT(cut.segment.start.x(), truth.start.x() - 1.0F);  // the edge goes on at this end
+  EXPECT_GE(cut.segment.start.x(), truth.start.x() - 5.0F);
+}
+
+TEST(LineRefiner, ALineOutsideTheImageComesBackWithoutSupport) {
+  const LineRefiner refiner(LineRefinerParameters{});
+  const cv::Mat image = edgeImage(0.0F, 60.0F, 0.0F, kMiddle);
+  const LineSegment outside{{-80.0F, -10.0F}, {-20.0F, -10.0F}};
+  EXPECT_EQ(refiner.fit(image, outside, 20.0F).support, 0.0F);
+  const LineSegment point{{50.0F, 50.0F}, {50.0F, 50.0F}};
+  EXPECT_EQ(refiner.fit(image, point, 20.0F).support, 0.0F);
+}
+
+}  // namespace
+}  // namespace tet_line_tracker

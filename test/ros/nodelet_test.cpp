@@ -1,0 +1,376 @@
+/// Nodelets in one manager, each with its own image topic, are fed with pictures and judged by their
+/// messages.
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <rosgraph_msgs/Log.h>
+#include <std_srvs/Trigger.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <set>
+
+#include "synthetic_scene.h"
+#include "tet_line_tracker/LineArray.h"
+#include "tet_line_tracker/TrackingStatistics.h"
+
+namespace tet_line_tracker {
+namespace {
+
+namespace encodings = sensor_msgs::image_encodings;
+namespace scene = synthetic_scene;
+
+constexpr double kPatience = 20.0;  // seconds for what must happen; a slow machine only makes the test slow
+const ros::Time kStart(1000, 0);
+const ros::Duration kPeriod(0.05);
+
+bool waitFor(const std::function<bool()>& condition, double seconds = kPatience) {
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
+  while (ros::ok() && !condition()) {
+    if (ros::WallTime::now() > end) return false;
+    ros::spinOnce();
+    ros::WallDuration(0.005).sleep();
+  }
+  return true;
+}
+
+/// Everything the manager has logged since the test began.
+std::vector<std::string> manager_log;
+
+void takeLog(const rosgraph_msgs::Log::ConstPtr& message) {
+  if (message->name == "/manager") manager_log.push_back(message->msg);
+}
+
+int timesLogged(const std::vector<std::string>& words) {
+  return static_cast<int>(std::count_if(manager_log.begin(), manager_log.end(), [&](const std::string& line) {
+    return std::all_of(words.begin(), words.end(),
+                       [&](const std::string& word) { return line.find(word) != std::string::npos; });
+  }));
+}
+
+/// Waits until the log holds a line with all of `words`.
+bool isLogged(const std::vector<std::string>& words) {
+  return waitFor([&] { return timesLogged(words) > 0; });
+}
+
+/// One nodelet /NAME, its image topic /NAME/image and everything it says.
+class Stream {
+ public:
+  explicit Stream(const std::string& name) : name_(name) {
+    image_publisher_ = node_.advertise<sensor_msgs::Image>("/" + name + "/image", 300);
+    info_publisher_ = node_.advertise<sensor_msgs::CameraInfo>("/" + name + "/camera_info", 10);
+    lines_subscriber_ = node_.subscribe<LineArray>(
+        "/" + name + "/lines", 300, [this](const LineArray::ConstPtr& m) { lines.push_back(*m); });
+    statistics_subscriber_ = node_.subscribe<TrackingStatistics>(
+        "/" + name + "/statistics", 300,
+        [this](const TrackingStatistics::ConstPtr& m) { statistics.push_back(*m); });
+    diagnostics_subscriber_ = node_.subscribe<diagnostic_msgs::DiagnosticArray>(
+        "/diagnostics", 300, [this](const diagnostic_msgs::DiagnosticArray::ConstPtr& m) { take(*m); });
+  }
+
+  bool connected() {
+    return waitFor([this] {
+      return image_publisher_.getNumSubscribers() == 1 && info_publisher_.getNumSubscribers() == 1 &&
+             lines_subscriber_.getNumPublishers() == 1 && statistics_subscriber_.getNumPublishers() == 1 &&
+             diagnostics_subscriber_.getNumPublishers() >= 1;
+    });
+  }
+  void send(const sensor_msgs::Image& image) { image_publisher_.publish(image); }
+  void send(const sensor_msgs::CameraInfo& info) { info_publisher_.publish(info); }
+  /// Pictures `first` to before `last` at their time of a 20 Hz camera.
+  void sendPictures(int first, int last) {
+    for (int i = first; i < last; ++i) send(scene::monoMessage(i, kStart + kPeriod * i));
+  }
+  bool receives(std::size_t messages) {
+    return waitFor([&] { return lines.size() >= messages && statistics.size() >= messages; });
+  }
+  std::vector<LineArray> lines;
+  std::vector<TrackingStatistics> statistics;
+  std::map<std::string, std::string> diagnostics;  ///< the latest values of this nodelet
+  int diagnostics_count{0};
+
+ private:
+  void take(const diagnostic_msgs::DiagnosticArray& array) {
+    for (const auto& status : array.status) {
+      if (status.name.find(name_ + ":") == std::string::npos) continue;
+      ++diagnostics_count;
+      for (const auto& value : status.values) diagnostics[value.key] = value.value;
+    }
+  }
+
+  std::string name_;
+  ros::NodeHandle node_;
+  ros::Publisher image_publisher_, info_publisher_;
+  ros::Subscriber lines_subscriber_, statistics_subscriber_, diagnostics_subscriber_;
+};
+
+std::set<std::uint64_t> idsOf(const LineArray& message) {
+  std::set<std::uint64_t> ids;
+  for (const Line& line : message.lines) ids.insert(line.id);
+  return ids;
+}
+
+/// No id twice in a message, none that comes back after it was missing.
+void expectContiguousIds(const std::vector<LineArray>& messages) {
+  std::set<std::uint64_t> before;
+  std::set<std::uint64_t> gone;
+  std::uint32_t epoch = 0;
+  for (const LineArray& message : messages) {
+    const std::set<std::uint64_t> ids = idsOf(message);
+    EXPECT_EQ(ids.size(), message.lines.size());
+    if (message.epoch != epoch) {
+      before.clear();
+      gone.clear();
+    }
+    for (const std::uint64_t id : ids) EXPECT_EQ(gone.count(id), 0U) << "id " << id << " came back";
+    for (const std::uint64_t id : before) {
+      if (ids.count(id) == 0) gone.insert(id);
+    }
+    before = ids;
+    epoch = message.epoch;
+  }
+}
+
+TEST(Nodelet, PublishesEveryImageWithIdsThatStay) {
+  Stream stream("plain");
+  ASSERT_TRUE(stream.connected());
+  stream.send(scene::cameraInfo(kStart));
+  stream.sendPictures(0, 40);
+  ASSERT_TRUE(stream.receives(40));
+  for (std::size_t i = 0; i < 40; ++i) {
+    const LineArray& message = stream.lines[i];
+    EXPECT_EQ(message.header.seq, i);
+    EXPECT_EQ(message.header.stamp, kStart + kPeriod * static_cast<double>(i));
+    EXPECT_EQ(message.header.frame_id, scene::kFrame);
+    EXPECT_EQ(message.image_count, i + 1);
+    EXPECT_EQ(message.width, static_cast<std::uint32_t>(scene::kWidth));
+    EXPECT_GE(message.lines.size(), 10U);
+  }
+  expectContiguousIds(stream.lines);
+  const std::set<std::uint64_t> first = idsOf(stream.lines.front());
+  const std::set<std::uint64_t> last = idsOf(stream.lines.back());
+  const auto alive =
+      std::count_if(first.begin(), first.end(), [&](std::uint64_t id) { return last.count(id); });
+  EXPECT_GE(alive, static_cast<std::ptrdiff_t>(first.size() / 2));
+  EXPECT_EQ(stream.lines.back().lines.front().age, 40U);
+}
+
+TEST(Nodelet, ShowsLinesOnlyWhileSomebodyLooks) {
+  Stream stream("shown");
+  ASSERT_TRUE(stream.connected());
+  ros::NodeHandle node;
+  std::vector<sensor_msgs::Image> pictures;
+  std::vector<visualization_msgs::MarkerArray> markers;
+  const auto take_picture = [&](const sensor_msgs::Image::ConstPtr& m) { pictures.push_back(*m); };
+  const auto take_markers = [&](const visualization_msgs::MarkerArray::ConstPtr& m) {
+    markers.push_back(*m);
+  };
+  const auto pictures_in = node.subscribe<sensor_msgs::Image>("/shown/debug_image", 50, take_picture);
+  const auto markers_in = node.subscribe<visualization_msgs::MarkerArray>("/shown/markers", 50, take_markers);
+  ASSERT_TRUE(
+      waitFor([&] { return pictures_in.getNumPublishers() == 1 && markers_in.getNumPublishers() == 1; }));
+  // The connection is complete on the other side a moment later: send until the first picture comes.
+  stream.send(scene::cameraInfo(kStart));
+  int sent = 0;
+  ASSERT_TRUE(waitFor([&] {
+    if (static_cast<int>(stream.lines.size()) == sent) stream.sendPictures(sent, sent + 1), ++sent;
+    return !pictures.empty() && markers.size() >= 2;
+  }));
+  EXPECT_EQ(pictures.front().encoding, encodings::BGR8);
+  EXPECT_EQ(pictures.front().header.frame_id, scene::kFrame);
+  EXPECT_EQ(pictures.front().width, static_cast<std::uint32_t>(scene::kWidth));
+  ASSERT_EQ(markers.back().markers.size(), 1U);
+  const visualization_msgs::Marker& lines = markers.back().markers.front();
+  EXPECT_EQ(lines.header.frame_id, scene::kFrame);
+  EXPECT_GE(lines.points.size(), 20U);
+  EXPECT_EQ(lines.points.size(), lines.colors.size());
+  EXPECT_EQ(lines.points.front().z, 1.0);
+}
+
+TEST(Nodelet, KeepsTheRulesOfTheStream) {
+  Stream stream("stream");
+  ASSERT_TRUE(stream.connected());
+  stream.sendPictures(10, 12);
+  stream.sendPictures(11, 12);                       // the same stamp
+  stream.sendPictures(9, 10);                        // late
+  stream.send(scene::monoMessage(12, ros::Time()));  // no stamp
+  stream.sendPictures(12, 13);
+  ASSERT_TRUE(stream.receives(3));
+  EXPECT_EQ(stream.lines[2].header.stamp, kStart + kPeriod * 12);
+  EXPECT_EQ(stream.lines[2].epoch, stream.lines[0].epoch);
+  EXPECT_EQ(stream.lines[2].image_count, 3U);
+  EXPECT_EQ(stream.statistics[2].dropped_duplicate, 1U);
+  EXPECT_EQ(stream.statistics[2].dropped_late, 1U);
+  EXPECT_EQ(stream.statistics[2].dropped_zero, 1U);
+
+  stream.sendPictures(100, 101);  // a gap
+  ASSERT_TRUE(stream.receives(4));
+  EXPECT_EQ(stream.lines[3].epoch, stream.lines[2].epoch + 1);
+  EXPECT_EQ(stream.lines[3].image_count, 1U);
+
+  const cv::Mat larger = scene::picture(101, 400, 300);
+  stream.send(scene::messageOf(larger, encodings::MONO8, kStart + kPeriod * 101));
+  ASSERT_TRUE(stream.receives(5));
+  EXPECT_EQ(stream.lines[4].epoch, stream.lines[3].epoch + 1);
+  EXPECT_EQ(stream.lines[4].width, 400U);
+
+  stream.sendPictures(0, 4);  // the bag begins again: two images tell, the third one counts
+  ASSERT_TRUE(stream.receives(7));
+  EXPECT_EQ(stream.lines[5].epoch, stream.lines[4].epoch + 1);
+  EXPECT_EQ(stream.lines[5].header.stamp, kStart + kPeriod * 2);
+  EXPECT_EQ(stream.lines[6].image_count, 2U);
+  EXPECT_TRUE(isLogged({"/stream/image", "dropped", "no stamp"}));
+  ASSERT_TRUE(waitFor([&] { return stream.diagnostics["images tracked"] == "7"; }));
+  EXPECT_EQ(stream.diagnostics["images dropped: late stamp"], "3");
+  EXPECT_EQ(stream.diagnostics["images dropped: duplicate stamp"], "1");
+  EXPECT_EQ(stream.diagnostics["images dropped: zero stamp"], "1");
+}
+
+TEST(Nodelet, TakesEveryEncodingAndSurvivesOthers) {
+  Stream stream("encodings");
+  ASSERT_TRUE(stream.connected());
+  int image = 0;
+  const auto send = [&](const std::string& encoding, const cv::Mat& pixels) {
+    stream.send(scene::messageOf(pixels, encoding, kStart + kPeriod * image));
+    ++image;
+  };
+  const auto coloured = [&](int code) {
+    cv::Mat colour;
+    cv::cvtColor(scene::picture(image), colour, code);
+    return colour;
+  };
+  cv::Mat wide;
+  send(encodings::MONO8, scene::picture(image));
+  send(encodings::TYPE_8UC1, scene::picture(image));
+  scene::picture(image).convertTo(wide, CV_16U, 256.0);
+  send(encodings::MONO16, wide);
+  scene::picture(image).convertTo(wide, CV_16U, 256.0);
+  send(encodings::TYPE_16UC1, wide);
+  send(encodings::BGR8, coloured(cv::COLOR_GRAY2BGR));
+  send(encodings::RGB8, coloured(cv::COLOR_GRAY2RGB));
+  send(encodings::BGRA8, coloured(cv::COLOR_GRAY2BGRA));
+  send(encodings::RGBA8, coloured(cv::COLOR_GRAY2RGBA));
+  send(encodings::BAYER_RGGB8, scene::picture(image));
+  ASSERT_TRUE(stream.receives(9));
+  expectContiguousIds(stream.lines);
+  // The gray values of a colour image are those of the picture, so its lines go on.
+  EXPECT_EQ(stream.lines[7].epoch, stream.lines[0].epoch);
+  EXPECT_GE(stream.lines[7].lines.front().age, 8U);
+
+  const std::size_t before = stream.lines.size();
+  send(encodings::TYPE_32FC1, cv::Mat(scene::kHeight, scene::kWidth, CV_32FC1, cv::Scalar(0)));
+  send(encodings::TYPE_32FC1, cv::Mat(scene::kHeight, scene::kWidth, CV_32FC1, cv::Scalar(0)));
+  sensor_msgs::Image broken = scene::monoMessage(image, kStart + kPeriod * image);
+  broken.data.resize(broken.data.size() / 2);
+  stream.send(broken);
+  send(encodings::MONO8, scene::picture(image));
+  ASSERT_TRUE(stream.receives(before + 1));
+  EXPECT_TRUE(isLogged({"/encodings/image", "32FC1", "mono8"}));
+  EXPECT_EQ(timesLogged({"32FC1"}), 1);
+  ASSERT_TRUE(waitFor([&] { return stream.diagnostics["images dropped: unreadable"] == "3"; }));
+}
+
+TEST(Nodelet, StartsAnEpochWhenItIsReset) {
+  Stream stream("reset");
+  ASSERT_TRUE(stream.connected());
+  stream.sendPictures(0, 5);
+  ASSERT_TRUE(stream.receives(5));
+  std_srvs::Trigger reset;
+  ASSERT_TRUE(ros::service::call("/reset/reset", reset));
+  EXPECT_TRUE(reset.response.success);
+  EXPECT_EQ(reset.response.message.rfind(std::to_string(stream.lines.back().lines.size()) + " tracks", 0), 0U)
+      << reset.response.message;
+  stream.sendPictures(5, 7);
+  ASSERT_TRUE(stream.receives(7));
+  EXPECT_EQ(stream.lines[5].epoch, stream.lines[4].epoch + 1);
+  EXPECT_EQ(stream.lines[5].image_count, 1U);
+  ASSERT_FALSE(stream.lines[5].lines.empty());
+  for (const Line& line : stream.lines[5].lines) EXPECT_EQ(line.age, 1U);
+}
+
+TEST(Nodelet, TakesTheCalibrationWhenItComes) {
+  Stream stream("calibration");
+  ASSERT_TRUE(stream.connected());
+  stream.sendPictures(0, 25);
+  ASSERT_TRUE(stream.receives(25));
+  ASSERT_FALSE(stream.lines[24].lines.empty());
+  EXPECT_TRUE(std::isnan(stream.lines[24].lines[0].start_normalized[0]));
+  EXPECT_TRUE(isLogged({"/calibration/camera_info", "no camera_info after"}));
+
+  stream.send(scene::cameraInfo(kStart));
+  int sent = 25;
+  ASSERT_TRUE(waitFor([&] {
+    if (static_cast<int>(stream.lines.size()) == sent) stream.sendPictures(sent, sent + 1), ++sent;
+    return !std::isnan(stream.lines.back().lines.at(0).start_normalized[0]);
+  }));
+  const Line& line = stream.lines.back().lines[0];
+  EXPECT_NEAR(line.start_normalized[0], (line.start_px[0] - scene::kWidth / 2.0) / scene::kFocal, 1e-6);
+  EXPECT_NEAR(line.start_normalized[1], (line.start_px[1] - scene::kHeight / 2.0) / scene::kFocal, 1e-6);
+  EXPECT_GT(line.age, 25U);
+  EXPECT_EQ(timesLogged({"/calibration/camera_info", "no camera_info after"}), 1);
+
+  sensor_msgs::CameraInfo other = scene::cameraInfo(kStart);
+  other.width = 2 * scene::kWidth;
+  stream.send(other);
+  ASSERT_TRUE(waitFor([&] {
+    if (static_cast<int>(stream.lines.size()) == sent) stream.sendPictures(sent, sent + 1), ++sent;
+    return std::isnan(stream.lines.back().lines.at(0).start_normalized[0]);
+  }));
+  EXPECT_TRUE(isLogged({"/calibration/camera_info", "640x240", "320x240"}));
+}
+
+TEST(Nodelet, ThinsOnlyTheMessages) {
+  Stream stream("thinned");
+  ASSERT_TRUE(stream.connected());
+  stream.sendPictures(0, 60);
+  ASSERT_TRUE(stream.receives(15));
+  waitFor([] { return false; }, 0.5);
+  ASSERT_EQ(stream.lines.size(), 15U);  // 60 images at 20 Hz, 5 Hz asked for
+  for (std::size_t i = 0; i < stream.lines.size(); ++i) {
+    EXPECT_EQ(stream.lines[i].image_count, 4 * i + 1);
+    EXPECT_EQ(stream.lines[i].header.seq, i);
+  }
+  expectContiguousIds(stream.lines);
+  EXPECT_EQ(stream.lines.back().lines.front().age, 57U);
+}
+
+TEST(Nodelet, CountsTheImagesThatNewerOnesReplace) {
+  Stream stream("flooded");
+  ASSERT_TRUE(stream.connected());
+  const cv::Mat large = scene::picture(0, 1600, 1200);
+  std::vector<sensor_msgs::Image> images;
+  for (int i = 0; i < 40; ++i) {
+    images.push_back(scene::messageOf(large, encodings::MONO8, kStart + kPeriod * (i + 1)));
+  }
+  for (const sensor_msgs::Image& image : images) stream.send(image);
+  // The newest image always has its turn.
+  ASSERT_TRUE(waitFor(
+      [&] { return !stream.lines.empty() && stream.lines.back().header.stamp == kStart + kPeriod * 40; }));
+  const int count = stream.diagnostics_count;
+  ASSERT_TRUE(waitFor([&] { return stream.diagnostics_count > count + 1; }));
+  const int received = std::stoi(stream.diagnostics["images received"]);
+  const int dropped = std::stoi(stream.diagnostics["images dropped: queue"]);
+  EXPECT_EQ(received, static_cast<int>(stream.lines.size()) + dropped);
+  EXPECT_GT(dropped, 0);
+  EXPECT_LE(stream.statistics.back().dropped_queue, static_cast<std::uint32_t>(dropped));
+  EXPECT_GT(stream.statistics.back().dropped_queue, 0U);
+}
+
+TEST(Nodelet, TellsWhichTopicsHaveImagesWhenItsOwnHasNone) {
+  EXPECT_TRUE(isLogged({"no image for", "/nobody/image (publishers: 0)", "/plain/debug_image"}));
+}
+
+}  // namespace
+}  // namespace tet_line_tracker
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "nodelet_test");
+  ros::NodeHandle node;
+  const ros::Subscriber log = node.subscribe("/rosout", 1000, tet_line_tracker::takeLog);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,96 @@
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <geometry_msgs/PoseStamped.h>
+#include <gtest/gtest.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/Imu.h>
+#include <std_msgs/String.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "bag_content.h"
+#include "simulation/scene_geometry.h"
+#include "tool_run.h"
+
+namespace tet_line_tracker {
+namespace {
+
+std::string bytesOf(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+TEST(SimulateBag, GivesTheSameBytesForTheSameArgumentsWhateverTheNumberOfThreads) {
+  const TemporaryFolder folder;
+  const std::string one = folder.path() / "one.bag";
+  const std::string two = folder.path() / "two.bag";
+  const std::string other = folder.path() / "other.bag";
+  const std::vector<std::string> arguments{"--seconds", "0.1", "--light", "gain_jumps", "--moving-object"};
+  const auto run = [&](const std::string& bag, const std::vector<std::string>& more) {
+    std::vector<std::string> all{bag};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    all.insert(all.end(), more.begin(), more.end());
+    const ToolRun result = runTool("simulate_bag", all);
+    ASSERT_EQ(result.status, 0) << result.errors;
+  };
+  run(one, {"--threads", "1"});
+  run(two, {"--threads", "3"});
+  run(other, {"--seed", "2"});
+  EXPECT_EQ(bytesOf(one), bytesOf(two));
+  EXPECT_NE(bytesOf(one), bytesOf(other));
+}
+
+TEST(SimulateBag, HoldsAllThatTheJudgeAndAnEstimatorNeed) {
+  const TemporaryFolder folder;
+  const std::string bag = folder.path() / "slow.bag";
+  const ToolRun run = runTool("simulate_bag", {bag, "--seconds", "0.2", "--light", "low,drift"});
+  ASSERT_EQ(run.status, 0) << run.errors;
+
+  const auto images = readTopic<sensor_msgs::Image>(bag, "/cam0/image_raw");
+  const auto poses = readTopic<geometry_msgs::PoseStamped>(bag, "/ground_truth/pose");
+  ASSERT_EQ(images.size(), 5U);
+  ASSERT_EQ(poses.size(), 5U);
+  EXPECT_EQ(readTopic<sensor_msgs::CameraInfo>(bag, "/cam0/camera_info").size(), 6U);
+  EXPECT_EQ(readTopic<tf2_msgs::TFMessage>(bag, "/tf").size(), 5U);
+  EXPECT_EQ(readTopic<tf2_msgs::TFMessage>(bag, "/tf_static").size(), 1U);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    EXPECT_EQ(images[i].message.header.stamp, poses[i].message.header.stamp);
+    EXPECT_NEAR(images[i].message.header.stamp.toSec(), 1000.0 + 0.05 * static_cast<double>(i), 1e-9);
+  }
+
+  const auto imu = readTopic<sensor_msgs::Imu>(bag, "/imu0");
+  ASSERT_GT(imu.size(), 40U);
+  EXPECT_LT(imu.front().message.header.stamp, images.front().message.header.stamp);
+  EXPECT_GT(imu.back().message.header.stamp, images.back().message.header.stamp);
+
+  const auto scenes = readTopic<std_msgs::String>(bag, kSceneTopic);
+  ASSERT_EQ(scenes.size(), 1U);
+  EXPECT_LT(scenes[0].bag_time, images[0].bag_time);
+  const SceneGeometry geometry = SceneGeometry::fromText(scenes[0].message.data);
+  EXPECT_EQ(geometry.arguments().front(), (std::pair<std::string, std::string>("scene", "room")));
+  const Eigen::Isometry3d camera = toPose(poses[0].message.pose);
+  EXPECT_TRUE(geometry.raycast(camera.translation(), camera.linear().col(2), 1000000000000));
+}
+
+TEST(SimulateBag, EndsWithASentenceAndNoBagOnBadInput) {
+  const TemporaryFolder folder;
+  const std::string bag = folder.path() / "never.bag";
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--motion", "sideways"},
+                                                {"--scene", "cellar"},
+                                                {"--light", "candle"},
+                                                {"--seconds", "-1"},
+                                                {"--rate", "0"},
+                                                {"--scene", "room", "--motion", "corridor"}}) {
+    std::vector<std::string> arguments{bag};
+    arguments.insert(arguments.end(), wrong.begin(), wrong.end());
+    const ToolRun run = runTool("simulate_bag", arguments);
+    EXPECT_NE(run.status, 0) << wrong.back();
+    EXPECT_NE(run.errors.find("simulate_bag: "), std::string::npos);
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << wrong.back();
+  }
+}
+
+}  // namespace
+}  // namespace tet_line_tracker

@@ -1,0 +1,138 @@
+#include <gtest/gtest.h>
+#include <sensor_msgs/Imu.h>
+#include <tf2_msgs/TFMessage.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include <map>
+
+#include "bag_content.h"
+#include "tet_line_tracker/LineArray.h"
+#include "tet_line_tracker/TrackingStatistics.h"
+#include "tool_run.h"
+
+namespace tet_line_tracker {
+namespace {
+
+constexpr char kFrames[] = "/tf_static";
+
+/// A short flight with fast turns, and copies of its bag with something left out.
+class TrackBag : public testing::Test {
+ protected:
+  void SetUp() override {
+    const ToolRun run = runTool("simulate_bag", {flight(), "--motion", "fast", "--seconds", "0.5"});
+    ASSERT_EQ(run.status, 0) << run.errors;
+  }
+  std::string flight() const { return folder_.path() / "flight.bag"; }
+  std::string file(const std::string& name) const { return folder_.path() / name; }
+
+  /// How often each motion prior was used.
+  std::map<std::string, int> track(const std::string& bag, const std::vector<std::string>& options,
+                                   std::string* errors = nullptr) {
+    std::vector<std::string> arguments{bag, file("tracks.bag")};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ToolRun run = runTool("track_bag", arguments);
+    EXPECT_EQ(run.status, 0) << run.errors;
+    if (errors != nullptr) *errors = run.errors;
+    std::map<std::string, int> priors;
+    for (const auto& one : readTopic<TrackingStatistics>(file("tracks.bag"), "/line_tracker/statistics"))
+      ++priors[one.message.prior];
+    return priors;
+  }
+
+  void copyWithout(const std::string& topic, const std::string& copy) {
+    rosbag::Bag from(flight(), rosbag::bagmode::Read);
+    rosbag::Bag to(copy, rosbag::bagmode::Write);
+    rosbag::View view(from);
+    for (const rosbag::MessageInstance& instance : view) {
+      if (instance.getTopic() != topic) to.write(instance.getTopic(), instance.getTime(), instance);
+    }
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+/// The lines of a bag as they are on the wire.
+std::string linesOf(const std::string& path) {
+  std::string bytes;
+  for (const auto& one : readTopic<LineArray>(path, "/line_tracker/lines")) {
+    std::vector<std::uint8_t> wire(ros::serialization::serializationLength(one.message));
+    ros::serialization::OStream stream(wire.data(), static_cast<std::uint32_t>(wire.size()));
+    ros::serialization::serialize(stream, one.message);
+    bytes.append(wire.begin(), wire.end());
+  }
+  return bytes;
+}
+
+TEST_F(TrackBag, TakesTheOnlyImuWithItsFramesAndGivesTheSameBytesAgain) {
+  std::string errors;
+  EXPECT_GE(track(flight(), {}, &errors)["imu"], 8);
+  EXPECT_EQ(errors.find("warning"), std::string::npos) << errors;
+  const std::string lines = linesOf(file("tracks.bag"));
+  track(flight(), {"--imu", "/imu0"});
+  EXPECT_GT(lines.size(), 1000U);
+  EXPECT_TRUE(linesOf(file("tracks.bag")) == lines);
+}
+
+TEST_F(TrackBag, WithoutTheFramesTheImagesPredictAndAWarningNamesThem) {
+  copyWithout(kFrames, file("no_frames.bag"));
+  std::string errors;
+  std::map<std::string, int> priors = track(file("no_frames.bag"), {}, &errors);
+  EXPECT_EQ(priors["imu"], 0);
+  EXPECT_GE(priors["image"], 8);
+  EXPECT_NE(errors.find("'imu0' to the camera's 'cam0'"), std::string::npos) << errors;
+
+  // EuRoC's extrinsic, which simulate_bag uses, as a parameter.
+  const auto frames = readTopic<tf2_msgs::TFMessage>(flight(), kFrames);
+  ASSERT_EQ(frames.size(), 1U);
+  const auto& q = frames[0].message.transforms[0].transform.rotation;
+  // The bag holds the pose of the camera in the IMU; the parameter is its inverse.
+  const std::string rotation = "imu_rotation=" + std::to_string(-q.x) + " " + std::to_string(-q.y) + " " +
+                               std::to_string(-q.z) + " " + std::to_string(q.w);
+  EXPECT_GE(track(file("no_frames.bag"), {"--set", rotation}, &errors)["imu"], 8);
+  EXPECT_EQ(errors.find("warning"), std::string::npos) << errors;
+}
+
+TEST_F(TrackBag, WithoutAnImuTheImagesPredict) {
+  copyWithout("/imu0", file("no_imu.bag"));
+  std::map<std::string, int> priors = track(file("no_imu.bag"), {});
+  EXPECT_EQ(priors["imu"], 0);
+  EXPECT_GE(priors["image"], 8);
+  EXPECT_EQ(track(flight(), {"--set", "prior=none"})["none"], 11);
+}
+
+TEST_F(TrackBag, TheMaskKeepsLinesOutAndMustHaveTheSizeOfTheImages) {
+  cv::Mat mask(480, 752, CV_8UC1, cv::Scalar(0));
+  mask.colRange(0, 376).setTo(255);
+  cv::imwrite(file("mask.png"), mask);
+  track(flight(), {"--set", "mask=" + file("mask.png")});
+  std::size_t lines = 0;
+  for (const auto& array : readTopic<LineArray>(file("tracks.bag"), "/line_tracker/lines")) {
+    for (const Line& line : array.message.lines) {
+      EXPECT_LT(0.5F * (line.start_px[0] + line.end_px[0]), 377.0F);
+      ++lines;
+    }
+  }
+  EXPECT_GT(lines, 50U);
+
+  cv::imwrite(file("small.png"), mask.rowRange(0, 100));
+  const ToolRun small =
+      runTool("track_bag", {flight(), file("never.bag"), "--set", "mask=" + file("small.png")});
+  EXPECT_NE(small.status, 0);
+  EXPECT_NE(small.errors.find("the mask is 752x100, the images have 752x480"), std::string::npos)
+      << small.errors;
+  const ToolRun none = runTool("track_bag", {flight(), file("never.bag"), "--set", "mask=/nowhere.png"});
+  EXPECT_NE(none.status, 0);
+  EXPECT_NE(none.errors.find("parameter mask is /nowhere.png"), std::string::npos) << none.errors;
+  EXPECT_FALSE(std::filesystem::exists(file("never.bag")));
+}
+
+TEST_F(TrackBag, AnImuThatIsNotThereIsSaid) {
+  const ToolRun run = runTool("track_bag", {flight(), file("never.bag"), "--imu", "/gyro"});
+  EXPECT_NE(run.status, 0);
+  EXPECT_NE(run.errors.find("/gyro"), std::string::npos);
+  EXPECT_NE(run.errors.find("/imu0"), std::string::npos) << run.errors;
+}
+
+}  // namespace
+}  // namespace tet_line_tracker
