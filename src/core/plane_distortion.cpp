@@ -51,7 +51,7 @@ std::optional<Eigen::Vector2d> PlaneDistortion::undistort(const Eigen::Vector2d&
   }
   // Newton from the distorted point itself nearly always arrives; inside max_radius_ there is one solution
   // only.
-  if (const std::optional<Eigen::Vector2d> ideal = solve(distorted, distorted, 8)) return ideal;
+  if (auto ideal = solve(distorted, distorted, 8)) return ideal;
   // The radial part alone has one solution and is solved safely; Newton in the plane then has only the small
   // tangential part left to find, and cannot run to another branch.
   const double distorted_radius = distorted.norm();

@@ -209,6 +209,7 @@ void LineTrackerNodelet::work() {
 }
 
 void LineTrackerNodelet::track(const sensor_msgs::ImageConstPtr& image) {
+  const std::uint64_t replaced_before = queue_->replaced();
   const cv::Mat gray = toGray(*image, parameters_.mono16_scale);
   const auto stamp_ns = static_cast<std::int64_t>(image->header.stamp.toNSec());
   const CalibrationInput::Model model = calibration_.modelFor(gray.cols, gray.rows);
@@ -230,7 +231,7 @@ void LineTrackerNodelet::track(const sensor_msgs::ImageConstPtr& image) {
   if (epoch_ != frame->epoch) {
     if (epoch_) NODELET_INFO("epoch %u begins at stamp %.6f", frame->epoch, stampSeconds(stamp_ns));
     epoch_ = frame->epoch;
-    replaced_before_epoch_ = queue_->replaced();
+    replaced_before_epoch_ = replaced_before;
     throttle_->reset();
   }
   last_stamp_ns_ = stamp_ns;

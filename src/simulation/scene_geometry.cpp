@@ -168,7 +168,7 @@ std::optional<RayHit> SceneGeometry::raycast(const Eigen::Vector3d& origin,
 
 Eigen::Vector3d SceneGeometry::pointAt(const SurfacePoint& point, std::int64_t stamp_ns) const {
   const Rectangle& r = rectangles_.at(static_cast<std::size_t>(point.surface));
-  const Eigen::Vector3d in_body = r.origin + point.position.x() * r.u_axis + point.position.y() * r.v_axis;
+  Eigen::Vector3d in_body = r.origin + point.position.x() * r.u_axis + point.position.y() * r.v_axis;
   if (r.body < 0) return in_body;
   return bodies_[static_cast<std::size_t>(r.body)].worldFromBody(stamp_ns) * in_body;
 }

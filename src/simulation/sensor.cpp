@@ -38,7 +38,7 @@ cv::Mat expose(const Sensor& sensor, const cv::Mat& radiance, double brightness,
       const float noise =
           std::sqrt(signal * shot + read) * normalFromBits(hash64(row_seed + static_cast<std::uint64_t>(x)));
       const float gray = amplification * (signal + noise);
-      out[x] = static_cast<std::uint8_t>(std::min(255.0F, std::max(0.0F, gray)) + 0.5F);
+      out[x] = cv::saturate_cast<std::uint8_t>(gray);
     }
   }
   return image;

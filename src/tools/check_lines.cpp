@@ -29,7 +29,10 @@ bool checkBag(const std::string& path, const std::string& lines_topic, const std
   for (const rosbag::MessageInstance& instance : view) {
     throwIfInterrupted();
     const auto image = instance.instantiate<sensor_msgs::Image>();
-    if (!image) throw std::runtime_error(image_topic + " of " + path + " holds " + instance.getDataType());
+    if (!image) {
+      throw std::runtime_error(std::string(image_topic).append(" of ").append(path).append(" holds ") +
+                               instance.getDataType());
+    }
     // Images without a stamp are never tracked.
     if (image->header.stamp.isZero()) continue;
     rules.addImage(static_cast<std::int64_t>(image->header.stamp.toNSec()), static_cast<int>(image->width),

@@ -84,6 +84,7 @@ int run(int argc, char** argv) {
   std::vector<std::string> arguments;
   ros::removeROSArgs(argc, argv, arguments);
   std::vector<char*> rest;
+  rest.reserve(arguments.size());
   for (std::string& argument : arguments) rest.push_back(argument.data());
   if (!parseCommandLine(static_cast<int>(rest.size()), rest.data(),
                         "check_plvins_contract [BAG] [options]\nWithout a bag it listens to the topics. Exit "

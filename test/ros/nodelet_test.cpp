@@ -346,7 +346,9 @@ TEST(Nodelet, CountsTheImagesThatNewerOnesReplace) {
   for (int i = 0; i < 40; ++i) {
     images.push_back(scene::messageOf(large, encodings::MONO8, kStart + kPeriod * (i + 1)));
   }
-  for (const sensor_msgs::Image& image : images) stream.send(image);
+  stream.send(images.front());
+  ASSERT_TRUE(stream.receives(1));
+  for (std::size_t i = 1; i < images.size(); ++i) stream.send(images[i]);
   // The newest image always has its turn.
   ASSERT_TRUE(waitFor(
       [&] { return !stream.lines.empty() && stream.lines.back().header.stamp == kStart + kPeriod * 40; }));
