@@ -8,9 +8,11 @@
 
 #include <Eigen/Core>
 
-#include "tet_line_tracker/line_segment.h"
-
 namespace tet_line_tracker {
+
+/// Smallest z of a unit ray whose point on z = 1 an estimator can use: 84.3 degrees from the axis, 10 units
+/// out. Further out, a pixel of noise moves the point by more than a line is worth.
+constexpr double kMinForward = 0.1;
 
 /// What a camera_info or a calibration file says of a lens.
 struct CameraCalibration {
@@ -38,8 +40,8 @@ class CameraModel {
   /// Unit ray of a pixel; nothing when the undistortion does not converge.
   virtual std::optional<Eigen::Vector3d> unproject(const Eigen::Vector2d& pixel) const = 0;
 
-  /// Undistorted point of a pixel on z = 1; nothing when unproject() gives none, or a ray that does not meet
-  /// z = 1.
+  /// Undistorted point of a pixel on z = 1; nothing when unproject() gives none, or a ray with z below
+  /// kMinForward: to the side of the camera or behind it.
   std::optional<Eigen::Vector2d> normalize(const Eigen::Vector2d& pixel) const;
 
  protected:
@@ -57,21 +59,5 @@ class CameraModel {
 /// - equidistant: k1 k2 k3 k4 (Kannala-Brandt), rays beyond 90 degrees included,
 /// - mei: xi k1 k2 p1 p2 (omnidirectional), rays beyond 90 degrees included.
 std::shared_ptr<const CameraModel> makeCameraModel(const CameraCalibration& calibration);
-
-/// Smallest z of a unit ray whose point on z = 1 an estimator can use: 84.3 degrees from the axis, 10 units
-/// out. Further out, a pixel of noise moves the point by more than a line is worth.
-constexpr double kMinForward = 0.1;
-
-/// A segment on z = 1, undistorted.
-struct NormalizedSegment {
-  Eigen::Vector2d start;
-  Eigen::Vector2d end;
-  bool cut;  ///< one end was moved to the border of what lies in front
-};
-
-/// The part of a segment in the raw image [px] that lies in front of the camera (z of the rays at least
-/// kMinForward), for lenses with a field of view of more than 180 degrees. A cut end stays in the plane that
-/// the two rays span. Nothing when no end lies in front, or an end cannot be undistorted.
-std::optional<NormalizedSegment> normalizeSegment(const CameraModel& camera, const LineSegment& segment);
 
 }  // namespace tet_line_tracker

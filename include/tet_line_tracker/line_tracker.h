@@ -52,6 +52,8 @@ struct FrameStatistics {
   std::uint32_t lines_detected{0};  ///< found by the detector on this image
   std::uint32_t lines_added{0};     ///< of these, new tracks
   float coverage{0.0F};             ///< share of the 8x6 grid of the image that a line crosses, 0..1
+  std::uint32_t lines_cut{0};  ///< tracked or detected, cut to the part of the image that can be normalised
+  std::uint32_t lines_left_out{0};  ///< the same, but less than min_length was left: lost, or not added
   std::array<std::uint32_t, static_cast<std::size_t>(LossReason::kCount)> lost{};  ///< by LossReason
 
   std::string prior{"none"};   ///< motion prior that was used
@@ -83,7 +85,8 @@ class LineTracker {
   LineTracker(LineTracker&&) noexcept;
   LineTracker& operator=(LineTracker&&) noexcept;
 
-  /// Calibration for the normalised endpoints; nullptr: they are NaN. May change between images.
+  /// Calibration for the normalised endpoints; nullptr: they are NaN. May change between images. Where pixels
+  /// cannot be normalised (CameraModel::normalize()) the image ends: lines are cut there.
   void setCamera(std::shared_ptr<const CameraModel> camera);
 
   /// Where lines are looked for and may go on: where `mask` is not zero; a copy is kept. Counts for images of

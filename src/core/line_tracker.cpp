@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "field_of_view.h"
 #include "mask.h"
 #include "new_line_chooser.h"
 #include "stopwatch.h"
@@ -28,6 +29,9 @@ const LineTrackerParameters& checked(const LineTrackerParameters& parameters) {
   return parameters;
 }
 
+/// What the field of view did to a line.
+enum class ViewCut { kNone, kCut, kLeftOut };
+
 /// What a line looked like in the last image.
 struct Appearance {
   LineTemplate patches;
@@ -36,6 +40,7 @@ struct Appearance {
   /// parallax, which goes on as it was.
   Eigen::Vector2f start_parallax{Eigen::Vector2f::Zero()};
   Eigen::Vector2f end_parallax{Eigen::Vector2f::Zero()};
+  ViewCut view_cut{ViewCut::kNone};
 };
 
 /// Tracks this near to each other follow the same edge.
@@ -78,6 +83,7 @@ class LineTracker::Implementation {
   const LineFrame* process(const cv::Mat& gray, std::int64_t stamp_ns);
   std::size_t reset();
   void setCamera(std::shared_ptr<const CameraModel> camera) {
+    if (camera != camera_) field_of_view_.reset();
     prior_.setCamera(camera);
     camera_ = std::move(camera);
   }
@@ -93,6 +99,9 @@ class LineTracker::Implementation {
   LossReason follow(const MotionPrediction& prediction, TrackedLine& line, Appearance& appearance) const;
   static void keepParallax(const LineSegment& turned, const LineSegment& found, Appearance& appearance);
   bool isPlausible(const LineSegment& expected, const LineSegment& found) const;
+  /// Cuts `segment` to what can be normalised; left out, it stays as it is.
+  ViewCut cutToView(LineSegment& segment) const;
+  void count(ViewCut cut);
   void dropDuplicates();
   bool detectionIsDue();
   void addLines(const cv::Mat& gray);
@@ -112,6 +121,7 @@ class LineTracker::Implementation {
 
   ImagePyramid pyramid_;
   ImageBounds bounds_;
+  std::optional<FieldOfView> field_of_view_;  ///< of camera_ within bounds_
   LineFrame frame_;
   /// Of frame_.lines, in their order; more may wait at the end for reuse.
   std::vector<Appearance> appearances_;
@@ -143,6 +153,7 @@ const LineFrame* LineTracker::Implementation::process(const cv::Mat& gray, std::
     any_epoch_ = true;
     frame_.image_count = 0;
     frame_.lines.clear();
+    field_of_view_.reset();
     prior_.reset();
     dropped_before_epoch_ = gate_.dropped();
   }
@@ -154,6 +165,7 @@ const LineFrame* LineTracker::Implementation::process(const cv::Mat& gray, std::
   frame_.statistics = FrameStatistics{};
   FrameStatistics& statistics = frame_.statistics;
   bounds_ = ImageBounds::ofImage(gray.cols, gray.rows, static_cast<float>(parameters_.detection.border));
+  if (!field_of_view_) field_of_view_.emplace(camera_, bounds_);
   mask_in_force_ = mask_.size() == gray.size() ? mask_ : cv::Mat();
 
   pyramid_.build(gray, std::max(in_force_.flow.pyramid_levels,
@@ -205,6 +217,7 @@ void LineTracker::Implementation::trackLines(const MotionPrediction& prediction)
   std::size_t kept = 0;
   for (std::size_t i = 0; i < frame_.lines.size(); ++i) {
     const LossReason reason = reasons_[i];
+    count(appearances_[i].view_cut);
     if (reason != LossReason::kCount) {
       ++statistics.lost[static_cast<std::size_t>(reason)];
       continue;
@@ -221,6 +234,7 @@ void LineTracker::Implementation::trackLines(const MotionPrediction& prediction)
 
 LossReason LineTracker::Implementation::follow(const MotionPrediction& prediction, TrackedLine& line,
                                                Appearance& appearance) const {
+  appearance.view_cut = ViewCut::kNone;
   const LineSegment turned =
       prior_.apply(prediction, line.segment, line.start_normalized, line.end_normalized);
   const LineSegment expected = {turned.start + appearance.start_parallax,
@@ -259,6 +273,8 @@ LossReason LineTracker::Implementation::follow(const MotionPrediction& predictio
     line.segment = *inside;
   }
   if (line.segment.length() < static_cast<float>(in_force_.detection.min_length)) return LossReason::kLength;
+  appearance.view_cut = cutToView(line.segment);
+  if (appearance.view_cut == ViewCut::kLeftOut) return LossReason::kBorder;
   if (!mask_in_force_.empty() && !mostlyInMask(line.segment, mask_in_force_)) return LossReason::kMask;
   if (!paper && in_force_.motion.keep_parallax) keepParallax(turned, line.segment, appearance);
   return LossReason::kCount;
@@ -277,6 +293,20 @@ bool LineTracker::Implementation::isPlausible(const LineSegment& expected, const
   const float stretch = static_cast<float>(in_force_.plausibility.max_stretch);
   const float ratio = found.length() / expected.length();
   return ratio < stretch && ratio * stretch > 1.0F;
+}
+
+ViewCut LineTracker::Implementation::cutToView(LineSegment& segment) const {
+  const std::optional<LineSegment> seen =
+      field_of_view_->clip(segment, static_cast<float>(in_force_.detection.min_length));
+  if (!seen) return ViewCut::kLeftOut;
+  const bool whole = seen->start == segment.start && seen->end == segment.end;
+  segment = *seen;
+  return whole ? ViewCut::kNone : ViewCut::kCut;
+}
+
+void LineTracker::Implementation::count(ViewCut cut) {
+  frame_.statistics.lines_cut += cut == ViewCut::kCut ? 1 : 0;
+  frame_.statistics.lines_left_out += cut == ViewCut::kLeftOut ? 1 : 0;
 }
 
 void LineTracker::Implementation::dropDuplicates() {
@@ -327,8 +357,11 @@ void LineTracker::Implementation::addLines(const cv::Mat& gray) {
       if (fit.support < in_force_.detection.min_new_support) continue;
       candidate = fit.segment;
     }
-    const std::optional<LineSegment> inside = clip(candidate, bounds_);
-    if (inside && inside->length() >= min_length) candidates_[usable++] = *inside;
+    std::optional<LineSegment> inside = clip(candidate, bounds_);
+    if (!inside || inside->length() < min_length) continue;
+    const ViewCut cut = cutToView(*inside);
+    count(cut);
+    if (cut != ViewCut::kLeftOut) candidates_[usable++] = *inside;
   }
   candidates_.resize(usable);
 
@@ -363,12 +396,11 @@ void LineTracker::Implementation::describeLines() {
 void LineTracker::Implementation::normalizeEndpoints() {
   const Eigen::Vector2d unknown = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
   for (TrackedLine& line : frame_.lines) {
-    line.start_normalized = line.end_normalized = unknown;
-    if (!camera_) continue;
-    if (const std::optional<NormalizedSegment> seen = normalizeSegment(*camera_, line.segment)) {
-      line.start_normalized = seen->start;
-      line.end_normalized = seen->end;
-    }
+    const auto normalized = [&](const Eigen::Vector2f& pixel) -> Eigen::Vector2d {
+      return camera_ ? camera_->normalize(pixel.cast<double>()).value_or(unknown) : unknown;
+    };
+    line.start_normalized = normalized(line.segment.start);
+    line.end_normalized = normalized(line.segment.end);
   }
 }
 

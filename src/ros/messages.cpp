@@ -79,6 +79,8 @@ TrackingStatistics toTrackingStatistics(const LineFrame& frame, const std::strin
   message.lines_detected = from.lines_detected;
   message.lines_added = from.lines_added;
   message.coverage = from.coverage;
+  message.lines_cut = from.lines_cut;
+  message.lines_left_out = from.lines_left_out;
   message.lost_flow = lost(LossReason::kFlow);
   message.lost_residual = lost(LossReason::kResidual);
   message.lost_forward_backward = lost(LossReason::kForwardBackward);

@@ -35,6 +35,8 @@ void StreamDiagnostics::addTracked(const LineFrame& frame, double milliseconds) 
   interval_.max_ms = std::max(interval_.max_ms, milliseconds);
   lines_live_ = frame.lines.size();
   lines_added_ += frame.statistics.lines_added;
+  lines_cut_ += frame.statistics.lines_cut;
+  lines_left_out_ += frame.statistics.lines_left_out;
   for (std::size_t i = 0; i < lines_lost_.size(); ++i) lines_lost_[i] += frame.statistics.lost[i];
   epoch_ = frame.epoch;
   width_ = frame.width;
@@ -96,6 +98,8 @@ void StreamDiagnostics::report(const Setup& setup, diagnostic_updater::Diagnosti
   }
   status.add("lines live", lines_live_);
   status.add("lines started", lines_added_);
+  status.add("lines cut to the field of view", lines_cut_);
+  status.add("lines left out of the field of view", lines_left_out_);
   for (std::size_t i = 0; i < lines_lost_.size(); ++i) {
     status.add(std::string("lines lost: ") + kLossNames[i], lines_lost_[i]);
   }

@@ -65,7 +65,7 @@ class StreamDiagnostics {
   Clock::time_point last_image_{Clock::now()};
   std::uint64_t received_{0}, tracked_{0}, published_{0};
   std::uint64_t without_imu_{0};
-  std::uint64_t lines_added_{0};
+  std::uint64_t lines_added_{0}, lines_cut_{0}, lines_left_out_{0};
   std::array<std::uint64_t, static_cast<std::size_t>(LossReason::kCount)> lines_lost_{};
   Drops dropped_{};
   std::size_t lines_live_{0};

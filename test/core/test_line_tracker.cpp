@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "synthetic_images.h"
 
@@ -147,6 +148,78 @@ TEST(LineTracker, EndpointsAreNormalizedWithACameraAndNotANumberWithout) {
     EXPECT_NEAR(line.start_normalized.x(), (line.segment.start.x() - 320.0) / 400.0, 1e-6);
     EXPECT_NEAR(line.end_normalized.y(), (line.segment.end.y() - 200.0) / 400.0, 1e-6);
   }
+}
+
+/// 190 degrees in a circle of 400 px.
+std::shared_ptr<const CameraModel> wideCamera() {
+  CameraCalibration calibration;
+  calibration.model = "equidistant";
+  calibration.fx = calibration.fy = 120.6;
+  calibration.cx = 319.5;
+  calibration.cy = 199.5;
+  return makeCameraModel(calibration);
+}
+
+TEST(LineTracker, AWideLensCutsLinesWhereTheyCannotBeNormalizedAndCountsThem) {
+  for (const char* method : {"joint", "paper"}) {
+    LineTrackerParameters parameters = boxParameters();
+    parameters.method = method;
+    LineTracker tracker(parameters);
+    const std::shared_ptr<const CameraModel> camera = wideCamera();
+    tracker.setCamera(camera);
+    std::uint32_t cut = 0;
+    std::uint32_t cut_at_first = 0;
+    std::uint32_t left_out = 0;
+    std::uint32_t left_out_at_first = 0;
+    std::uint32_t lost = 0;
+    for (int k = 0; k < 60; ++k) {
+      const LineFrame* frame = tracker.process(
+          boxesImage(kWidth, kHeight, {-2.0F * static_cast<float>(k), 0.0F}), kStart + k * kPeriod);
+      ASSERT_GE(frame->lines.size(), 5U) << "image " << k;
+      for (const TrackedLine& line : frame->lines) {
+        ASSERT_TRUE(line.start_normalized.allFinite() && line.end_normalized.allFinite());
+        EXPECT_LT(line.start_normalized.norm(), 1.0 / kMinForward);
+        EXPECT_LT(line.end_normalized.norm(), 1.0 / kMinForward);
+        EXPECT_GE(line.segment.length(), 30.0F);
+        const Eigen::Vector2d end = *camera->project(line.end_normalized.homogeneous());
+        EXPECT_LT((end - line.segment.end.cast<double>()).norm(), 1e-4) << "pixels and rays must agree";
+      }
+      if (k == 0) cut_at_first = frame->statistics.lines_cut;
+      if (k == 0) left_out_at_first = frame->statistics.lines_left_out;
+      cut += frame->statistics.lines_cut;
+      left_out += frame->statistics.lines_left_out;
+      lost += frame->statistics.lost[static_cast<std::size_t>(LossReason::kBorder)];
+    }
+    EXPECT_GE(cut_at_first, 3U);
+    EXPECT_GE(left_out_at_first, 3U);
+    EXPECT_GT(cut, cut_at_first);
+    EXPECT_GT(left_out, left_out_at_first);
+    // As published, a cut end has no corner to hold on to and is lost by the flow.
+    if (parameters.method == "joint") {
+      EXPECT_GE(lost, 3U) << "boxes leave the view within the image";
+    }
+  }
+}
+
+TEST(LineTracker, WithoutAWideLensNothingIsCut) {
+  LineTracker tracker(boxParameters());
+  CameraCalibration pinhole;
+  pinhole.fx = pinhole.fy = 400.0;
+  pinhole.cx = 320.0;
+  pinhole.cy = 200.0;
+  const cv::Mat image = boxesImage(kWidth, kHeight, {0.0F, 0.0F});
+  const std::size_t lines = tracker.process(image, kStart)->lines.size();
+  EXPECT_GE(lines, 18U);
+  tracker.setCamera(makeCameraModel(pinhole));
+  const LineFrame* frame = tracker.process(image, kStart + kPeriod);
+  EXPECT_EQ(frame->lines.size(), lines);
+  EXPECT_EQ(frame->statistics.lines_cut + frame->statistics.lines_left_out, 0U);
+  // A lens that comes later counts from the next image on.
+  tracker.setCamera(wideCamera());
+  frame = tracker.process(image, kStart + 2 * kPeriod);
+  EXPECT_LT(frame->lines.size(), lines);
+  EXPECT_GT(frame->statistics.lines_cut, 0U);
+  EXPECT_GT(frame->statistics.lines_left_out, 0U);
 }
 
 TEST(LineTracker, RefusesBrokenParametersAndImagesThatAreNotGray) {

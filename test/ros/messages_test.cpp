@@ -59,6 +59,8 @@ TEST(Messages, GiveEachReasonOfALossItsField) {
     frame.statistics.lost[i] = static_cast<std::uint32_t>(100 + i);
   }
   frame.statistics.dropped_late = 7;
+  frame.statistics.lines_cut = 11;
+  frame.statistics.lines_left_out = 12;
   frame.statistics.total_ms = 2.5;
   const TrackingStatistics message = toTrackingStatistics(frame, "cam0", 0, 4);
   const std::vector<std::uint32_t> lost{
@@ -68,6 +70,8 @@ TEST(Messages, GiveEachReasonOfALossItsField) {
   ASSERT_EQ(lost.size(), frame.statistics.lost.size());
   for (std::size_t i = 0; i < lost.size(); ++i) EXPECT_EQ(lost[i], 100 + i);
   EXPECT_EQ(message.dropped_late, 7U);
+  EXPECT_EQ(message.lines_cut, 11U);
+  EXPECT_EQ(message.lines_left_out, 12U);
   EXPECT_EQ(message.dropped_queue, 4U);
   EXPECT_EQ(message.total_ms, 2.5F);
   EXPECT_EQ(message.epoch, 3U);
