@@ -17,8 +17,8 @@ constexpr float kEndReach = 4.0F;          // an end follows its edge this far i
 constexpr float kOnEdge = 1.0F;            // a sample this near the fitted line lies on the edge [px]
 constexpr float kMinContrastShare = 0.3F;  // of the contrast of the edge before
 constexpr float kMinSlope = 0.8F;          // slower slopes are noise in any picture [gray / px]
-constexpr float kPeakShare = 0.4F;    // of the slope of the peak: what is under it does not pull its middle
-constexpr float kSigmaFloor = 0.02F;  // what sampling and rounding leave on a perfect edge [px]
+constexpr float kPeakShare = 0.3F;     // of the slope of the peak: what is under it does not pull its middle
+constexpr float kSigmaFloor = 0.025F;  // what sampling and rounding leave on a perfect edge [px]
 
 /// What profiles across the line found, from start to end; room for whole vectors.
 struct Samples {

@@ -10,10 +10,12 @@ namespace {
 
 constexpr int kWidth = 240;
 constexpr int kHeight = 200;
+constexpr float kSharp = 0.8F;  // width of the edges of a good lens [px]
 
 /// A straight edge through `middle` at `angle` [rad], `contrast` gray levels brighter on the left of its
-/// direction, about as sharp as a lens makes it, with Gaussian noise.
-cv::Mat edgeImage(float angle, float contrast, float noise, const Eigen::Vector2f& middle) {
+/// direction, `width` px wide as a lens makes it, with Gaussian noise.
+cv::Mat edgeImage(float angle, float contrast, float noise, const Eigen::Vector2f& middle,
+                  float width = 1.1F) {
   std::mt19937 generator(5);
   std::normal_distribution<float> normal(0.0F, 1.0F);
   const Eigen::Vector2f left(std::sin(angle), -std::cos(angle));
@@ -21,7 +23,7 @@ cv::Mat edgeImage(float angle, float contrast, float noise, const Eigen::Vector2
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const float distance = left.dot(Eigen::Vector2f(static_cast<float>(x), static_cast<float>(y)) - middle);
-      const float gray = 100.0F + 0.5F * contrast * std::erf(distance / 1.1F) + noise * normal(generator);
+      const float gray = 100.0F + 0.5F * contrast * std::erf(distance / width) + noise * normal(generator);
       image.at<std::uint8_t>(y, x) = cv::saturate_cast<std::uint8_t>(gray);
     }
   }
@@ -58,6 +60,31 @@ TEST(LineRefiner, PutsALineOnTheEdgeAtAnyAngleToWithinATenthOfAPixel) {
     EXPECT_LT(fit.sigma_px, 0.1F);
     // Start and end move along the normal alone.
     EXPECT_NEAR(fit.segment.length(), truth.length(), 0.5F);
+  }
+}
+
+TEST(LineRefiner, FindsASharpEdgeToATwentiethOfAPixelWhereverItLiesBetweenPixels) {
+  const LineRefiner refiner(withEnds(false));
+  for (int tenths = 0; tenths < 10; ++tenths) {
+    const Eigen::Vector2f middle(120.0F, 100.0F + 0.1F * static_cast<float>(tenths));
+    const cv::Mat image = edgeImage(0.0F, 60.0F, 0.0F, middle, kSharp);
+    const LineSegment truth = along(0.0F, 80.0F, middle);
+    EXPECT_NEAR(truth.distance(refiner.fit(image, truth, 20.0F).segment.middle()), 0.0F, 0.05F) << tenths;
+  }
+}
+
+TEST(LineRefiner, TheEdgesOfAStripeOfTwoPixelsMoveApartByLessThanASeventhOfAPixel) {
+  const LineRefiner refiner(withEnds(false));
+  for (const float angle : {0.1F, 0.4F, 1.2F, 2.5F}) {
+    const Eigen::Vector2f left(std::sin(angle), -std::cos(angle));
+    const cv::Mat brighter = edgeImage(angle, 60.0F, 0.0F, kMiddle - left, kSharp);
+    const cv::Mat darker = edgeImage(angle, 60.0F, 0.0F, kMiddle + left, kSharp);
+    const cv::Mat stripe = brighter - darker + 100;
+    for (const float side : {-1.0F, 1.0F}) {
+      const LineSegment edge = along(angle, 80.0F, kMiddle + side * left);
+      EXPECT_NEAR(edge.distance(refiner.fit(stripe, edge, -20.0F * side).segment.middle()), 0.0F, 0.143F)
+          << angle;
+    }
   }
 }
 

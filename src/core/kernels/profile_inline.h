@@ -11,22 +11,24 @@ inline __attribute__((always_inline)) Float8 choose(Mask8 mask, Float8 a, Float8
   return (Float8)((mask & (Int8)a) | (~mask & (Int8)b));
 }
 
-/// The middle of the steep part around the peak grows towards one side while the slope stays over `floor`.
+/// The middle of the steep part around `steepest` grows towards one side while the slope stays over `floor`.
+/// The slope is that over two rises, which noise does not cut short.
 template <int kStep>
-inline __attribute__((always_inline)) void growSide(const Float8* slopes, int count, Float8 peak_place,
+inline __attribute__((always_inline)) void growSide(const Float8* rises, int count, Float8 steepest,
                                                     Float8 floor, Float8* weights, Float8* moment) {
   const Float8 zero = {0, 0, 0, 0, 0, 0, 0, 0};
   Mask8 running = zero > zero;
-  for (int i = 1; i + 1 < count; ++i) {
+  Float8 before = zero;
+  for (int i = 0; i < count; ++i) {
     const int k = kStep > 0 ? i : count - 1 - i;
     const Float8 place = zero + static_cast<float>(k);
-    const Float8 weight = slopes[k] - floor;
-    const Mask8 at_peak = place == peak_place;
-    const Mask8 grown = running & (weight > zero);
-    const Float8 counted = choose(grown, weight, zero);
-    *weights += counted;
-    *moment += counted * (place - peak_place);
-    running = at_peak | grown;
+    const Mask8 at_steepest = place == steepest;
+    const Mask8 grown = running & (0.5F * (before + rises[k]) > floor);
+    const Float8 weight = choose(grown & (rises[k] > zero), rises[k], zero);
+    *weights += weight;
+    *moment += weight * (place - steepest);
+    running = at_steepest | grown;
+    before = rises[k];
   }
 }
 
@@ -37,34 +39,41 @@ void findEdges(const ProfileBatch& batch, float* places, float* slopes_found) {
     const std::uint8_t* pixel = batch.pixels[lane];
     for (int k = 0; k < batch.count; ++k) pixels[k][lane] = pixel[k * batch.step];
   }
-  Float8 slopes[kMaxProfile];
+  Float8 rises[kMaxProfile];  // from each pixel to the next
   const Float8 centre = load(batch.centre);
   Float8 best_score = zero;
   Float8 peak = zero;
-  Float8 peak_place = zero;
-  Float8 before = loadPixels(pixels[0]);
+  Float8 steepest = zero;  // rise at the peak
+  Float8 steepest_place = zero;
   Float8 here = loadPixels(pixels[1]);
+  rises[0] = (here - loadPixels(pixels[0])) * batch.polarity;
   for (int k = 1; k + 1 < batch.count; ++k) {
     const Float8 after = loadPixels(pixels[k + 1]);
-    slopes[k] = (after - before) * (0.5F * batch.polarity);
-    before = here;
+    rises[k] = (after - here) * batch.polarity;
     here = after;
+    const Float8 slope = 0.5F * (rises[k - 1] + rises[k]);
     // Near the line wins over far from it.
     const Float8 distance = (static_cast<float>(k) - centre) * batch.distance_scale;
-    const Float8 score = slopes[k] * (1.0F - distance * distance * 0.6F);
+    const Float8 score = slope * (1.0F - distance * distance * 0.8F);
     const Mask8 better = score > best_score;
     best_score = choose(better, score, best_score);
-    peak = choose(better, slopes[k], peak);
-    peak_place = choose(better, zero + static_cast<float>(k), peak_place);
+    peak = choose(better, slope, peak);
+    const Mask8 later = rises[k] > rises[k - 1];
+    steepest = choose(better, choose(later, rises[k], rises[k - 1]), steepest);
+    const Float8 place = zero + static_cast<float>(k);
+    steepest_place = choose(better, choose(later, place, place - 1.0F), steepest_place);
   }
-  // Middle of the steep part around the peak: also right where motion blur makes it flat and wide.
+  // Middle of the steep part around the peak: also right where motion blur makes it flat and wide. Of rises
+  // from pixel to pixel: slopes over two pixels would push the two edges of a narrow stripe apart, which
+  // shows as drift when the camera comes nearer, and pull a sharp edge to the nearest pixel.
   const Float8 floor = peak * batch.peak_share;
-  Float8 weights = peak - floor;
+  Float8 weights = steepest;
   Float8 moment = zero;
-  growSide<1>(slopes, batch.count, peak_place, floor, &weights, &moment);
-  growSide<-1>(slopes, batch.count, peak_place, floor, &weights, &moment);
+  growSide<1>(rises, batch.count - 1, steepest_place, floor, &weights, &moment);
+  growSide<-1>(rises, batch.count - 1, steepest_place, floor, &weights, &moment);
   const Mask8 found = peak > zero;
-  store(places, choose(found, peak_place + moment / choose(found, weights, zero + 1.0F), centre));
+  const Float8 middle = steepest_place + 0.5F + moment / choose(found, weights, zero + 1.0F);
+  store(places, choose(found, middle, centre));
   store(slopes_found, choose(found, peak, zero));
 }
 
