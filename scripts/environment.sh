@@ -89,7 +89,8 @@ requireFlight() {
 # `children` ends with the script.
 children=()
 stopChildren() {
-  for child in "${children[@]}"; do kill -INT "$child" 2>/dev/null || true; done
+  # Again after a while: one that is just starting does not listen yet.
+  while kill -INT "${children[@]}" 2>/dev/null; do sleep 2; done
   wait
 }
 chooseMaster() {

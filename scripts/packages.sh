@@ -19,7 +19,7 @@ else
     libvisualization-msgs-dev libyaml-cpp-dev ninja-build pluginlib-dev ros-diagnostic-msgs ros-geometry-msgs
     ros-message-generation ros-sensor-msgs ros-std-msgs ros-std-srvs ros-tf2-msgs ros-visualization-msgs)
   packages_run=(libnodeletlib-tools python3-diagnostic-msgs python3-rosbag python3-roslaunch python3-sensor-msgs
-    python3-tf2-msgs python3-visualization-msgs rosbash rosout tf2-tools)
+    python3-std-srvs python3-tf2-msgs python3-visualization-msgs rosbash rosout tf2-tools)
   packages_rviz=(libgl1-mesa-dri rviz)
   packages_test=(libgtest-dev librostest-dev python3-rostest rviz)
   packages_lint=(catkin-lint clang-format clang-tidy)
