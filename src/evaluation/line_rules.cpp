@@ -87,6 +87,7 @@ void LineRules::checkLine(const LineFrame& frame, const TrackedLine& line) {
              std::isnan(point.x()) == std::isnan(point.y()),
          "normalised endpoints are finite, or NaN in both coordinates");
   }
+  if (line.start_normalized.hasNaN() || line.end_normalized.hasNaN()) ++lines_not_normalized_;
   rule(std::isnan(line.sigma_px) || (std::isfinite(line.sigma_px) && line.sigma_px > 0.0F),
        "sigma_px is positive or NaN");
   // A method that detects every line anew in every image has no residual at all.

@@ -35,6 +35,8 @@ class LineRules {
   const std::map<std::string, Violation>& violations() const { return violations_; }
   std::size_t messages() const { return messages_; }
   std::size_t lines() const { return lines_; }
+  /// Lines without normalised endpoints: the image had no calibration.
+  std::size_t linesNotNormalized() const { return lines_not_normalized_; }
 
  private:
   void require(bool holds, const char* rule, const LineFrame& frame, std::optional<std::uint64_t> id = {});
@@ -49,7 +51,7 @@ class LineRules {
     std::uint32_t age;      ///< in that message
   };
   double min_length_;
-  std::size_t messages_{0}, lines_{0};
+  std::size_t messages_{0}, lines_{0}, lines_not_normalized_{0};
   std::uint32_t epoch_{0};
   std::uint64_t image_count_{0};
   std::int64_t stamp_ns_{0};

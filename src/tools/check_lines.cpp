@@ -40,7 +40,8 @@ bool checkBag(const std::string& path, const std::string& lines_topic, const std
     ++images;
   }
   rules.finish();
-  std::cout << path << ": " << rules.messages() << " messages, " << rules.lines() << " lines, " << images
+  std::cout << path << ": " << rules.messages() << " messages, " << rules.lines() << " lines ("
+            << rules.linesNotNormalized() << " not normalised), " << images
             << " images: " << (rules.violations().empty() ? "all rules hold" : "RULES BROKEN") << "\n";
   for (const auto& [rule, violation] : rules.violations()) {
     std::cout << "  " << violation.count << " times not so: " << rule << " (first: " << violation.first

@@ -58,6 +58,15 @@ TEST(LineRules, AcceptAStreamThatKeepsThem) {
   EXPECT_EQ(rules.lines(), 8U);
 }
 
+TEST(LineRules, CountLinesThatAreNotNormalized) {
+  TrackedLine both = line(1, 1);
+  both.start_normalized = both.end_normalized = {0.1, 0.2};
+  TrackedLine one = line(2, 1);
+  one.start_normalized = {0.1, 0.2};
+  one.end_normalized.setConstant(std::nan(""));
+  EXPECT_EQ(rulesAfter({frame(1, {both, one})}).linesNotNormalized(), 1U);
+}
+
 TEST(LineRules, AcceptANewEpochThatReusesIds) {
   Stream stream = goodStream();
   LineFrame next = frame(1, {line(1, 1)});
