@@ -13,28 +13,6 @@
 #include "node_parameters.h"
 
 namespace tet_line_tracker {
-namespace {
-
-/// What the nodelet adds to the mapper.
-struct LineMapperNodeParameters {
-  std::string world_frame{"world"};  ///< frame of the map
-  std::string camera_frame;          ///< optical frame of the camera; empty: frame_id of the lines
-  double tf_timeout{0.5};            ///< lines wait this long for a pose, by the wall clock, 0..60 [s]
-  double publish_rate{2.0};          ///< maps per second of the wall clock at most, 0.01..100 [Hz]
-};
-
-ParameterTable tableOf(LineMapperNodeParameters& p) {
-  ParameterTable table;
-  table.add("world_frame", p.world_frame, {}, "Frame of the map");
-  table.add("camera_frame", p.camera_frame, {}, "Optical frame of the camera; empty: frame_id of the lines");
-  table.add("tf_timeout", p.tf_timeout, 0.0, 60.0, "s",
-            "Lines wait this long for the pose of their camera, by the wall clock");
-  table.add("publish_rate", p.publish_rate, 0.01, 100.0, "Hz", "Maps per second at most");
-  return table;
-}
-
-}  // namespace
-
 /// Lines and the poses of their camera in, a map of lines out: see LineMapper. Callbacks run one after the
 /// other on the node handle's queue; only the tf2 buffer is filled from another thread, and guards itself.
 class LineMapperNodelet : public nodelet::Nodelet {

@@ -94,6 +94,16 @@ ParameterTable tableOf(NodeParameters& p) {
   return table;
 }
 
+ParameterTable tableOf(LineMapperNodeParameters& p) {
+  ParameterTable table;
+  table.add("world_frame", p.world_frame, {}, "Frame of the map");
+  table.add("camera_frame", p.camera_frame, {}, "Optical frame of the camera; empty: frame_id of the lines");
+  table.add("tf_timeout", p.tf_timeout, 0.0, 60.0, "s",
+            "Lines wait this long for the pose of their camera, by the wall clock");
+  table.add("publish_rate", p.publish_rate, 0.01, 100.0, "Hz", "Maps per second at most");
+  return table;
+}
+
 std::vector<std::string> check(const NodeParameters& parameters) {
   NodeParameters copy = parameters;
   std::vector<std::string> broken = tableOf(copy).check();

@@ -29,6 +29,17 @@ ParameterTable tableOf(NodeParameters& parameters);
 /// One sentence for each broken rule, empty when the parameters can be used.
 std::vector<std::string> check(const NodeParameters& parameters);
 
+/// What the nodelet LineMapper adds to the mapper.
+struct LineMapperNodeParameters {
+  std::string world_frame{"world"};  ///< frame of the map
+  std::string camera_frame;          ///< optical frame of the camera; empty: frame_id of the lines
+  double tf_timeout{0.5};            ///< lines wait this long for a pose, by the wall clock, 0..60 [s]
+  double publish_rate{2.0};          ///< maps per second of the wall clock at most, 0.01..100 [Hz]
+};
+
+/// Entries bound to the fields of `parameters`, which must outlive the table.
+ParameterTable tableOf(LineMapperNodeParameters& parameters);
+
 /// Names below the private namespace that are not the front end's: image_transport, diagnostic_updater and
 /// nodelet keep their own settings there.
 const std::set<std::string>& foreignParameterNames();

@@ -5,9 +5,11 @@
 #include <string>
 
 #include "../ros/node_parameters.h"
+#include "../ros/pl_vins_pairing.h"
 #include "parameter_markdown.h"
 #include "parameter_yaml.h"
 #include "program.h"
+#include "tet_line_tracker/line_mapper.h"
 
 namespace tet_line_tracker {
 namespace {
@@ -22,34 +24,56 @@ std::string contentOf(const std::string& path) {
   return content.str();
 }
 
+/// The parameters of all nodes at their defaults.
+struct NodeTables {
+  LineTrackerParameters tracker;
+  NodeParameters tracker_node;
+  PlVinsParameters bridge;
+  LineMapperParameters mapper;
+  LineMapperNodeParameters mapper_node;
+
+  /// Throws std::runtime_error for a name that is none of theirs.
+  ParameterTable of(const std::string& node) {
+    if (node == "pl_vins_bridge") return tableOf(bridge);
+    const bool is_mapper = node == "line_mapper";
+    if (!is_mapper && node != kTrackerNode) {
+      throw std::runtime_error("there is no node " + node +
+                               "; there are line_tracker, pl_vins_bridge, line_mapper");
+    }
+    ParameterTable table = is_mapper ? tableOf(mapper) : tableOf(tracker);
+    table.append(is_mapper ? tableOf(mapper_node) : tableOf(tracker_node));
+    return table;
+  }
+};
+
 int run(int argc, char** argv) {
   bool markdown = false;
   bool yaml = false;
-  std::string readme;
+  std::string path;
+  std::string node;
   po::options_description options("Options");
   // clang-format off
   options.add_options()
+      ("node", po::value(&node)->default_value(kTrackerNode), "line_tracker, pl_vins_bridge or line_mapper")
       ("markdown", po::bool_switch(&markdown), "print the table as in README.md")
       ("yaml", po::bool_switch(&yaml), "print the text of config/line_tracker.yaml")
-      ("update", po::value(&readme), "write the table into this README.md, between its markers");
+      ("update", po::value(&path), "write the table into this text (README.md, docs/vio.md), between its markers");
   // clang-format on
   po::variables_map values;
   if (!parseCommandLine(
           argc, argv,
-          "list_parameters [options]\n\nLists the parameters of the node and of track_bag: name, "
+          "list_parameters [options]\n\nLists the parameters of a node, and of track_bag or map_bag: name, "
           "default, what is allowed and meaning.",
           options, {}, values)) {
     return 0;
   }
 
-  LineTrackerParameters tracker;
-  NodeParameters node;
-  ParameterTable table = tableOf(tracker);
-  table.append(tableOf(node));
-  if (!readme.empty()) {
-    const std::string updated = withParameters(contentOf(readme), markdownOf(table));
-    std::ofstream file(readme, std::ios::binary);
-    if (!(file << updated).flush()) throw std::runtime_error(readme + " cannot be written");
+  NodeTables tables;
+  const ParameterTable table = tables.of(node);
+  if (!path.empty()) {
+    const std::string updated = withParameters(contentOf(path), node, markdownOf(table));
+    std::ofstream file(path, std::ios::binary);
+    if (!(file << updated).flush()) throw std::runtime_error(path + " cannot be written");
   } else if (markdown) {
     std::cout << markdownOf(table);
   } else if (yaml) {

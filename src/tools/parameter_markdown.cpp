@@ -8,8 +8,6 @@
 namespace tet_line_tracker {
 namespace {
 
-const std::string kBegin =
-    "<!-- parameters: rosrun tet_line_tracker list_parameters --update README.md -->\n";
 const std::string kEnd = "<!-- end of parameters -->\n";
 
 std::string shortNumber(double value) {
@@ -32,6 +30,8 @@ std::string rangeOf(const ParameterTable::Entry& entry) {
 
 }  // namespace
 
+const char* const kTrackerNode = "line_tracker";
+
 std::string markdownOf(const ParameterTable& table) {
   std::string text = "| name | default | range | unit | meaning |\n|---|---|---|---|---|\n";
   for (const ParameterTable::Entry& entry : table.entries()) {
@@ -42,12 +42,16 @@ std::string markdownOf(const ParameterTable& table) {
   return text;
 }
 
-std::string withParameters(const std::string& readme, const std::string& markdown) {
-  const std::size_t begin = readme.find(kBegin);
-  if (begin == std::string::npos) throw std::runtime_error("the text holds no line " + kBegin);
-  const std::size_t end = readme.find(kEnd, begin);
+std::string withParameters(const std::string& text, const std::string& node, const std::string& markdown) {
+  const std::string option = node == kTrackerNode ? "" : "--node " + node + " ";
+  const std::string marker =
+      "<!-- parameters: rosrun tet_line_tracker list_parameters " + option + "--update ";
+  const std::size_t begin = text.find(marker);
+  if (begin == std::string::npos) throw std::runtime_error("the text holds no line that begins " + marker);
+  const std::size_t table = text.find('\n', begin) + 1;
+  const std::size_t end = text.find(kEnd, table);
   if (end == std::string::npos) throw std::runtime_error("the text holds no line " + kEnd);
-  return readme.substr(0, begin + kBegin.size()) + "\n" + markdown + "\n" + readme.substr(end);
+  return text.substr(0, table) + "\n" + markdown + "\n" + text.substr(end);
 }
 
 }  // namespace tet_line_tracker

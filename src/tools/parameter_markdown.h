@@ -9,8 +9,12 @@ namespace tet_line_tracker {
 /// README's table: name, default, range, unit and meaning of each entry, one row each.
 std::string markdownOf(const ParameterTable& table);
 
-/// The text of a README with the part between its two parameter markers replaced by `markdown`. Throws
-/// std::runtime_error when a marker is missing.
-std::string withParameters(const std::string& readme, const std::string& markdown);
+/// `text` with the part between the two parameter markers of a node replaced by `markdown`. The first marker
+/// names the command that does this: list_parameters --update, with --node for nodes other than the tracker.
+/// Throws std::runtime_error when a marker is missing.
+std::string withParameters(const std::string& text, const std::string& node, const std::string& markdown);
+
+/// Name of the tracker for withParameters().
+extern const char* const kTrackerNode;
 
 }  // namespace tet_line_tracker

@@ -6,23 +6,42 @@
 #include <string>
 
 #include "../../src/ros/node_parameters.h"
+#include "../../src/ros/pl_vins_pairing.h"
 #include "parameter_markdown.h"
+#include "tet_line_tracker/line_mapper.h"
 
 namespace tet_line_tracker {
 namespace {
 
-TEST(ReadmeParameters, AreThoseOfTheCode) {
-  std::ifstream file(TET_SOURCE_DIRECTORY "/README.md");
-  std::ostringstream readme;
-  readme << file.rdbuf();
-  ASSERT_TRUE(file);
+/// Holds the table of a node in a text of the project against the one of the code.
+void expectTable(const std::string& path, const std::string& node, const ParameterTable& table) {
+  std::ifstream file(TET_SOURCE_DIRECTORY "/" + path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  ASSERT_TRUE(file) << path;
+  EXPECT_EQ(text.str(), withParameters(text.str(), node, markdownOf(table)))
+      << "update it: rosrun tet_line_tracker list_parameters --node " << node << " --update " << path;
+}
 
+TEST(ReadmeParameters, AreThoseOfTheCode) {
   LineTrackerParameters tracker;
   NodeParameters node;
   ParameterTable table = tableOf(tracker);
   table.append(tableOf(node));
-  EXPECT_EQ(readme.str(), withParameters(readme.str(), markdownOf(table)))
-      << "update it: rosrun tet_line_tracker list_parameters --update README.md";
+  expectTable("README.md", kTrackerNode, table);
+}
+
+TEST(VioParameters, OfTheBridgeAreThoseOfTheCode) {
+  PlVinsParameters bridge;
+  expectTable("docs/vio.md", "pl_vins_bridge", tableOf(bridge));
+}
+
+TEST(VioParameters, OfTheMapperAreThoseOfTheCode) {
+  LineMapperParameters mapper;
+  LineMapperNodeParameters node;
+  ParameterTable table = tableOf(mapper);
+  table.append(tableOf(node));
+  expectTable("docs/vio.md", "line_mapper", table);
 }
 
 TEST(ReadmeParameters, ShowDefaultRangeUnitAndMeaning) {
@@ -47,9 +66,16 @@ TEST(ReadmeParameters, ReplaceOnlyWhatIsBetweenTheMarkers) {
   const std::string begin =
       "<!-- parameters: rosrun tet_line_tracker list_parameters --update README.md -->\n";
   const std::string end = "<!-- end of parameters -->\n";
-  EXPECT_EQ(withParameters("before\n" + begin + "old\n" + end + "after\n", "new\n"),
-            "before\n" + begin + "\nnew\n\n" + end + "after\n");
-  EXPECT_THROW(withParameters("no marker", "new\n"), std::runtime_error);
+  const std::string begin_other =
+      "<!-- parameters: rosrun tet_line_tracker list_parameters --node other --update docs/other.md -->\n";
+  const std::string text =
+      "before\n" + begin + "old\n" + end + "between\n" + begin_other + "older\n" + end + "after\n";
+  EXPECT_EQ(withParameters(text, kTrackerNode, "new\n"),
+            "before\n" + begin + "\nnew\n\n" + end + "between\n" + begin_other + "older\n" + end + "after\n");
+  EXPECT_EQ(withParameters(text, "other", "new\n"),
+            "before\n" + begin + "old\n" + end + "between\n" + begin_other + "\nnew\n\n" + end + "after\n");
+  EXPECT_THROW(withParameters(text, "third", "new\n"), std::runtime_error);
+  EXPECT_THROW(withParameters("no marker", kTrackerNode, "new\n"), std::runtime_error);
 }
 
 }  // namespace
