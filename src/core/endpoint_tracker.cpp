@@ -17,10 +17,10 @@ constexpr float kGrayRange = 255.0F;  // gray thresholds are on [0, 1]
 /// directions.
 constexpr float kMinDeterminant = 1e-4F;
 
-/// The joint estimate ends its iterations below these steps [px of the level]: what is left, the level below
-/// finds, and after the finest one the edge.
-constexpr float kCoarseStep = 0.1F;
-constexpr float kFineStep = 0.03F;
+/// The joint estimate ends its iterations with a step below these [px of the level]: what is left, the level
+/// below finds, and after the finest one the edge.
+constexpr float kCoarseStep = 0.2F;
+constexpr float kFineStep = 0.1F;
 
 /// On one pyramid level, in windows: beyond it nothing in the gradients speaks of the place.
 constexpr float kMaxMovement = 1.0F;
@@ -67,105 +67,137 @@ namespace {
 /// The iterations on one pyramid level.
 class LevelFlow {
  public:
+  using Status = EndpointFlow::Status;
+
   LevelFlow(const EndpointTrackerParameters& parameters, const PatchRow& row, const cv::Mat& image)
       : parameters_(parameters),
         row_(row),
         image_(image),
         shape_(kernels::PatchShape::ofSide(parameters.window_px)),
         pixels_(static_cast<float>(shape_.side * shape_.side)),
+        max_movement_(kMaxMovement * static_cast<float>(shape_.side)),
         bounds_(ImageBounds::ofImage(image.cols, image.rows)),
-        reader_(shape_.side) {}
+        reader_(shape_) {}
 
-  /// Moves `segment` [px of the level] from where it is expected to where it is. `with_residual`: also says
-  /// how well the gray values match, on [0, 1].
-  EndpointFlow::Status follow(bool finest, LineSegment& segment, float& residual) {
-    using Status = EndpointFlow::Status;
-    const bool joint = parameters_.joint_endpoints;
-    const LineSegment expected = segment;
-    const float max_movement = kMaxMovement * static_cast<float>(shape_.side);
-    for (int iteration = 0;; ++iteration) {
-      if (!matchPatches(segment, finest || !joint)) return Status::kOutside;
-      if (parameters_.robust_patches) weigh(matches_.data(), count_);
-      NormalEquations equations;
-      for (std::size_t i = 0; i < count_; ++i) equations.add(matches_[i]);
-      if (joint) {
-        equations.hold(segment, expected, kExpectationWeight * pixels_);
-      } else if (std::min(equations.determinantOfEndpoint(0), equations.determinantOfEndpoint(1)) <=
-                 kMinDeterminant * pixels_ * pixels_) {
-        return Status::kNoSolution;
-      }
-      residual = joint ? meanResidual() : largestResidual();
-      const bool matched = residual < parameters_.max_residual;
-      const auto [start_step, end_step] = equations.solve();
-      // Paper, termination condition, with the step beside the residual: on smooth texture the residual alone
-      // is small long before the sub-pixel position is found.
-      const float largest_step = std::sqrt(std::max(start_step.squaredNorm(), end_step.squaredNorm()));
-      const bool converged = joint ? largest_step < (finest ? kFineStep : kCoarseStep)
-                                   : largest_step < parameters_.min_step && matched;
-      if (converged || iteration == parameters_.max_iterations) {
-        return matched ? Status::kTracked : Status::kHighResidual;
-      }
-      segment.start += start_step;
-      segment.end += end_step;
-      // Written so that it also holds for what is not a number.
-      if (!((segment.start - expected.start).norm() <= max_movement &&
-            (segment.end - expected.end).norm() <= max_movement)) {
-        return Status::kNoSolution;
-      }
-    }
+  /// Moves `segment` [px of the level] from where it is expected to where it is; `residual`: how well the
+  /// gray values match on the finest level, on [0, 1].
+  Status follow(bool finest, LineSegment& segment, float& residual) {
+    if (parameters_.joint_endpoints) return followTogether(finest, segment, residual);
+    // The paper: both endpoints must satisfy the termination condition.
+    float start_residual = 0.0F;
+    float end_residual = 0.0F;
+    const Status start = followAlone(row_.patches.front(), segment.start, start_residual);
+    if (start != Status::kTracked && start != Status::kHighResidual) return start;
+    const Status end = followAlone(row_.patches[row_.count - 1], segment.end, end_residual);
+    residual = std::max(start_residual, end_residual);
+    return end == Status::kTracked ? start : end;
   }
 
  private:
-  /// False when too little of the line is in the image.
-  bool matchPatches(const LineSegment& segment, bool with_residual) {
+  /// One endpoint by its own patch.
+  Status followAlone(const Patch& patch, Eigen::Vector2f& point, float& residual) {
+    const kernels::PatchTemplate& reference = patch.reference;
+    if (Symmetric{reference.xx, reference.xy, reference.yy}.determinant() <=
+        kMinDeterminant * pixels_ * pixels_) {
+      return Status::kNoSolution;
+    }
+    const Eigen::Vector2f expected = point;
+    for (int iteration = 0;; ++iteration) {
+      if (!bounds_.contains(point)) return Status::kOutside;
+      const PatchMatch match = matchAt(point, patch, 0);
+      residual = differenceOf(match, 0) / kGrayRange;
+      const Eigen::Vector2f step = stepOf(match);
+      // The paper ends on a small residual alone, which smooth texture reaches long before the sub-pixel
+      // position. Without a step to take the residual stays as it is.
+      if (step.norm() < parameters_.min_step || iteration == parameters_.max_iterations) {
+        return residual < parameters_.max_residual ? Status::kTracked : Status::kHighResidual;
+      }
+      point += step;
+      if (!((point - expected).norm() <= max_movement_)) return Status::kNoSolution;
+    }
+  }
+
+  /// Both endpoints by all patches.
+  Status followTogether(bool finest, LineSegment& segment, float& residual) {
+    const LineSegment expected = segment;
+    const float last_step = finest ? kFineStep : kCoarseStep;
+    for (int iteration = 0;; ++iteration) {
+      if (!matchPatches(segment)) return Status::kOutside;
+      if (parameters_.robust_patches) weigh(matches_.data(), count_);
+      JointEquations equations;
+      for (std::size_t i = 0; i < count_; ++i) equations.add(matches_[i]);
+      equations.hold(segment, expected, kExpectationWeight * pixels_);
+      const auto [start_step, end_step] = equations.solve();
+      segment.start += start_step;
+      segment.end += end_step;
+      // Written so that it also holds for what is not a number.
+      if (!((segment.start - expected.start).norm() <= max_movement_ &&
+            (segment.end - expected.end).norm() <= max_movement_)) {
+        return Status::kNoSolution;
+      }
+      if (iteration == parameters_.max_iterations ||
+          (start_step.norm() < last_step && end_step.norm() < last_step)) {
+        break;
+      }
+    }
+    if (!finest) return Status::kTracked;
+    // Of the place before the last step, which was small.
+    residual = meanResidual();
+    return residual < parameters_.max_residual ? Status::kTracked : Status::kHighResidual;
+  }
+
+  /// `slot`: where the gray values are kept for differenceOf().
+  PatchMatch matchAt(const Eigen::Vector2f& centre, const Patch& patch, std::size_t slot) {
+    kernels::AlignmentSums sums{};
+    kernels::active().align(reader_.patch(image_, centre), shape_, patch.reference, grayOf(slot), &sums);
+    return matchOf(patch, sums, pixels_, parameters_.gain_and_offset);
+  }
+
+  /// Mean absolute difference of the gray values, gain and offset matched if so asked [gray].
+  float differenceOf(const PatchMatch& match, std::size_t slot) {
+    return kernels::active().absoluteDifference(grayOf(slot), shape_, match.patch->reference, match.gain,
+                                                match.offset) /
+           (pixels_ * match.gain);
+  }
+
+  /// False when nothing of the line is in the image; it goes on with the patches that are.
+  bool matchPatches(const LineSegment& segment) {
     count_ = 0;
     for (std::size_t i = 0; i < row_.count; ++i) {
       const Patch& patch = row_.patches[i];
       const Eigen::Vector2f centre = segment.at(patch.fraction);
-      if (!bounds_.contains(centre)) {
-        // The paper follows two points: both must be seen. The joint estimate goes on with the patches that
-        // are.
-        if (!parameters_.joint_endpoints) return false;
-        continue;
-      }
-      kernels::AlignmentSums sums{};
-      const float* gray = reader_.align(image_, centre, patch.reference, &sums);
-      PatchMatch& match = matches_[count_++];
-      match = matchOf(patch, sums, pixels_, parameters_.gain_and_offset);
-      if (!with_residual) continue;
-      const float gain = parameters_.gain_and_offset ? gainOf(patch.reference, sums) : 1.0F;
-      const float offset = parameters_.gain_and_offset ? sums.i / pixels_ : 0.0F;
-      match.difference = kernels::active().absoluteDifference(gray, shape_, patch.reference, gain, offset) /
-                         (pixels_ * gain);
+      if (!bounds_.contains(centre)) continue;
+      matches_[count_] = matchAt(centre, patch, count_);
+      ++count_;
     }
     return count_ > 0;
   }
 
-  float largestResidual() const {
-    float largest = 0.0F;
-    for (std::size_t i = 0; i < count_; ++i) largest = std::max(largest, matches_[i].difference);
-    return largest / kGrayRange;
-  }
-
-  float meanResidual() const {
+  float meanResidual() {
     float sum = 0.0F;
     float weights = 1e-6F;
     for (std::size_t i = 0; i < count_; ++i) {
-      sum += matches_[i].weight * matches_[i].difference;
+      sum += matches_[i].weight * differenceOf(matches_[i], i);
       weights += matches_[i].weight;
     }
     return sum / (weights * kGrayRange);
   }
+
+  float* grayOf(std::size_t slot) { return gray_.data() + slot * static_cast<std::size_t>(shape_.floats()); }
 
   const EndpointTrackerParameters& parameters_;
   const PatchRow& row_;
   const cv::Mat& image_;
   kernels::PatchShape shape_;
   float pixels_;
+  float max_movement_;
   ImageBounds bounds_;
   PatchReader reader_;
   std::array<PatchMatch, kMaxPatches> matches_;
   std::size_t count_{0};
+  /// Of the patches in the second image, less the means of their templates.
+  alignas(32) std::array<float, kMaxPatches* static_cast<std::size_t>(
+                                    kernels::PatchShape::ofSide(kernels::kMaxPatchSide).floats())> gray_;
 };
 
 }  // namespace
@@ -182,7 +214,7 @@ void EndpointTracker::describe(const ImagePyramid& first, const LineSegment& seg
   if (!patches.content_ || patches.content_->levels.size() != level_count) {
     patches.content_ = std::make_unique<LineTemplate::Content>(shape, level_count, capacity);
   }
-  PatchReader reader(shape.side + 2);
+  PatchReader reader(shape);
   const std::size_t finest = std::min(level_count - 1, static_cast<std::size_t>(parameters_.finest_level));
   for (std::size_t j = finest; j < level_count; ++j) {
     const float scale = ImagePyramid::scale(static_cast<int>(j));
@@ -194,7 +226,7 @@ void EndpointTracker::describe(const ImagePyramid& first, const LineSegment& seg
       Patch& patch = row.patches[i];
       patch.fraction = static_cast<float>(i) / static_cast<float>(row.count - 1);
       const Eigen::Vector2f centre = scale * segment.at(patch.fraction);
-      kernels::active().makeTemplate(reader.read(first.level(static_cast<int>(j)), centre), shape,
+      kernels::active().makeTemplate(reader.patchWithRim(first.level(static_cast<int>(j)), centre), shape,
                                      parameters_.gain_and_offset, &patch.reference);
     }
   }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/LU>
-
 namespace tet_line_tracker {
 namespace {
 
@@ -17,12 +15,6 @@ constexpr float kGrayNoise = 2.0F;
 
 }  // namespace
 
-float gainOf(const kernels::PatchTemplate& reference, const kernels::AlignmentSums& sums) {
-  // A template without contrast fits any gain.
-  if (reference.gray_gray <= 0.0F) return 1.0F;
-  return std::clamp(sums.i_gray / reference.gray_gray, kMinGain, kMaxGain);
-}
-
 PatchMatch matchOf(const Patch& patch, const kernels::AlignmentSums& sums, float pixels,
                    bool gain_and_offset) {
   const kernels::PatchTemplate& reference = patch.reference;
@@ -30,12 +22,16 @@ PatchMatch matchOf(const Patch& patch, const kernels::AlignmentSums& sums, float
   match.patch = &patch;
   float squares = 0.0F;
   if (gain_and_offset) {
+    // A template without contrast fits any gain.
+    if (reference.gray_gray > 0.0F) {
+      match.gain = std::clamp(sums.i_gray / reference.gray_gray, kMinGain, kMaxGain);
+    }
+    match.offset = sums.i / pixels;
     // The projected gradients do not see gain and offset: the gray value itself serves as the difference.
-    const float gain = gainOf(reference, sums);
-    match.slope = Eigen::Vector2f(sums.i_x, sums.i_y) / gain;
+    const float shrink = 1.0F / match.gain;
+    match.slope = Eigen::Vector2f(sums.i_x, sums.i_y) * shrink;
     squares =
-        sums.i_i - sums.i * sums.i / pixels - 2.0F * gain * sums.i_gray + gain * gain * reference.gray_gray;
-    squares /= gain * gain;
+        ((sums.i_i - sums.i * match.offset) * shrink - 2.0F * sums.i_gray) * shrink + reference.gray_gray;
   } else {
     match.slope = Eigen::Vector2f(sums.i_x - reference.gray_x, sums.i_y - reference.gray_y);
     squares = sums.i_i - 2.0F * sums.i_gray + reference.gray_gray;
@@ -45,50 +41,63 @@ PatchMatch matchOf(const Patch& patch, const kernels::AlignmentSums& sums, float
 }
 
 void weigh(PatchMatch* matches, std::size_t count) {
+  // Sorted by insertion: there are few.
   std::array<float, kMaxPatches> spreads;
-  for (std::size_t i = 0; i < count; ++i) spreads[i] = matches[i].spread;
-  const auto middle = spreads.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(spreads.begin(), middle, spreads.begin() + static_cast<std::ptrdiff_t>(count));
-  const float scale = 1.5F * std::max(*middle, kGrayNoise);
   for (std::size_t i = 0; i < count; ++i) {
-    const float ratio = matches[i].spread / scale;
-    const float weight = 1.0F / (1.0F + ratio * ratio);
-    matches[i].weight = weight * weight;
+    std::size_t k = i;
+    for (; k > 0 && spreads[k - 1] > matches[i].spread; --k) spreads[k] = spreads[k - 1];
+    spreads[k] = matches[i].spread;
+  }
+  const float per_scale = 1.0F / (1.5F * std::max(spreads[count / 2], kGrayNoise));
+  for (std::size_t i = 0; i < count; ++i) {
+    const float ratio = matches[i].spread * per_scale;
+    const float root = 1.0F + ratio * ratio;
+    matches[i].weight = 1.0F / (root * root);
   }
 }
 
-void NormalEquations::add(const PatchMatch& match) {
+Eigen::Vector2f stepOf(const PatchMatch& match) {
   const kernels::PatchTemplate& reference = match.patch->reference;
-  Eigen::Matrix2f gradients;
-  gradients << reference.xx, reference.xy, reference.xy, reference.yy;
-  const float f1 = match.patch->fraction;
-  const float f0 = 1.0F - f1;
-  matrix_.topLeftCorner<2, 2>() += match.weight * f0 * f0 * gradients;
-  matrix_.topRightCorner<2, 2>() += match.weight * f0 * f1 * gradients;
-  matrix_.bottomLeftCorner<2, 2>() += match.weight * f0 * f1 * gradients;
-  matrix_.bottomRightCorner<2, 2>() += match.weight * f1 * f1 * gradients;
-  slope_.head<2>() += match.weight * f0 * match.slope;
-  slope_.tail<2>() += match.weight * f1 * match.slope;
+  return -(Symmetric{reference.xx, reference.xy, reference.yy}.inverse() * match.slope);
 }
 
-void NormalEquations::hold(const LineSegment& segment, const LineSegment& expected, float weight) {
-  matrix_.diagonal().array() += weight;
-  slope_.head<2>() += weight * (segment.start - expected.start);
-  slope_.tail<2>() += weight * (segment.end - expected.end);
+void JointEquations::add(const PatchMatch& match) {
+  const kernels::PatchTemplate& reference = match.patch->reference;
+  const float end = match.weight * match.patch->fraction;
+  const float start = match.weight - end;
+  const auto grow = [&reference](Symmetric& block, float share) {
+    block.xx += share * reference.xx;
+    block.xy += share * reference.xy;
+    block.yy += share * reference.yy;
+  };
+  grow(start_, start * (1.0F - match.patch->fraction));
+  grow(coupling_, start * match.patch->fraction);
+  grow(end_, end * match.patch->fraction);
+  start_slope_ += start * match.slope;
+  end_slope_ += end * match.slope;
 }
 
-float NormalEquations::determinantOfEndpoint(int endpoint) const {
-  return matrix_.block<2, 2>(2 * endpoint, 2 * endpoint).determinant();
+void JointEquations::hold(const LineSegment& segment, const LineSegment& expected, float weight) {
+  start_.xx += weight;
+  start_.yy += weight;
+  end_.xx += weight;
+  end_.yy += weight;
+  start_slope_ += weight * (segment.start - expected.start);
+  end_slope_ += weight * (segment.end - expected.end);
 }
 
-std::pair<Eigen::Vector2f, Eigen::Vector2f> NormalEquations::solve() const {
-  // By blocks: start eliminated first (Schur complement), in closed form.
-  const Eigen::Matrix2f a_inverse = matrix_.topLeftCorner<2, 2>().inverse();
-  const Eigen::Matrix2f coupling = matrix_.bottomLeftCorner<2, 2>() * a_inverse;
-  const Eigen::Matrix2f rest = matrix_.bottomRightCorner<2, 2>() - coupling * matrix_.topRightCorner<2, 2>();
-  const Eigen::Vector2f end = -(rest.inverse() * (slope_.tail<2>() - coupling * slope_.head<2>()));
-  const Eigen::Vector2f start = -(a_inverse * (slope_.head<2>() + matrix_.topRightCorner<2, 2>() * end));
-  return {start, end};
+std::pair<Eigen::Vector2f, Eigen::Vector2f> JointEquations::solve() const {
+  // By blocks: start eliminated first (Schur complement). All blocks are symmetric, but a product of two is
+  // not; that of three, coupling inverse(start) coupling, is again.
+  const Symmetric inverse = start_.inverse();
+  const Eigen::Vector2f first = inverse * Eigen::Vector2f(coupling_.xx, coupling_.xy);
+  const Eigen::Vector2f second = inverse * Eigen::Vector2f(coupling_.xy, coupling_.yy);
+  const Symmetric rest = {end_.xx - coupling_.xx * first.x() - coupling_.xy * first.y(),
+                          end_.xy - coupling_.xx * second.x() - coupling_.xy * second.y(),
+                          end_.yy - coupling_.xy * second.x() - coupling_.yy * second.y()};
+  const Eigen::Vector2f alone = inverse * start_slope_;
+  const Eigen::Vector2f end = rest.inverse() * (coupling_ * alone - end_slope_);
+  return {-alone - inverse * (coupling_ * end), end};
 }
 
 }  // namespace tet_line_tracker

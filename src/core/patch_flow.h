@@ -30,36 +30,51 @@ struct PatchRow {
 struct PatchMatch {
   const Patch* patch{nullptr};
   Eigen::Vector2f slope{Eigen::Vector2f::Zero()};  ///< gradient of half the squared difference [gray^2 / px]
-  float spread{0.0F};      ///< root mean square difference, gain and offset matched if so asked
-  float difference{0.0F};  ///< mean absolute difference [gray]; 0 when not asked for
+  float gain{1.0F}, offset{0.0F};  ///< of the second image over the template, which has no mean
+  float spread{0.0F};              ///< root mean square difference [gray]
   float weight{1.0F};
 };
 
-/// Match of a patch whose sums are known. `gain_and_offset`: the template was projected.
+/// Match of a patch of `pixels` whose sums are known. `gain_and_offset`: both are matched, within the limits
+/// of what light does; the template was projected.
 PatchMatch matchOf(const Patch& patch, const kernels::AlignmentSums& sums, float pixels,
                    bool gain_and_offset);
 
-/// Gain of the second image over the template, limited to what light does.
-float gainOf(const kernels::PatchTemplate& reference, const kernels::AlignmentSums& sums);
-
-/// Less weight for matches that are worse than the others: covered patches, moved background.
+/// Less weight for matches that are worse than the others: covered patches, moved background. At most
+/// kMaxPatches of them.
 void weigh(PatchMatch* matches, std::size_t count);
 
+/// A symmetric 2x2 matrix.
+struct Symmetric {
+  float xx{0.0F}, xy{0.0F}, yy{0.0F};
+
+  float determinant() const { return xx * yy - xy * xy; }
+  Symmetric inverse() const {
+    const float scale = 1.0F / determinant();
+    return {yy * scale, -xy * scale, xx * scale};
+  }
+  Eigen::Vector2f operator*(const Eigen::Vector2f& v) const {
+    return {xx * v.x() + xy * v.y(), xy * v.x() + yy * v.y()};
+  }
+};
+
+/// Step of a patch that moves alone [px]; not finite when its gradients are singular.
+Eigen::Vector2f stepOf(const PatchMatch& match);
+
 /// The 4x4 system of both movement vectors.
-class NormalEquations {
+class JointEquations {
  public:
   void add(const PatchMatch& match);
   /// Ties both endpoints to where they are expected, with the weight of a gradient of `weight` [gray^2 /
   /// px^2].
   void hold(const LineSegment& segment, const LineSegment& expected, float weight);
-  /// Determinant of the gradient matrix of endpoint 0 or 1 alone.
-  float determinantOfEndpoint(int endpoint) const;
   /// Steps of start and end [px]; not finite when the system is singular.
   std::pair<Eigen::Vector2f, Eigen::Vector2f> solve() const;
 
  private:
-  Eigen::Matrix4f matrix_{Eigen::Matrix4f::Zero()};
-  Eigen::Vector4f slope_{Eigen::Vector4f::Zero()};
+  Symmetric start_, coupling_, end_;  ///< blocks of the matrix
+  Eigen::Vector2f start_slope_{Eigen::Vector2f::Zero()};
+  Eigen::Vector2f end_slope_{Eigen::Vector2f::Zero()};
 };
 
 }  // namespace tet_line_tracker

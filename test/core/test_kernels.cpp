@@ -31,23 +31,62 @@ struct Template {
   PatchTemplate patch{};
 };
 
-std::vector<float> read(const KernelTable& table, const std::vector<std::uint8_t>& image, int x, int y,
-                        float fx, float fy, const PatchShape& shape) {
-  std::vector<float> patch(static_cast<std::size_t>(shape.floats() + kLanes), 0.0F);
-  table.readPatch({image.data() + y * kWidth + x, kWidth, fx, fy}, shape, patch.data());
-  return patch;
+PatchPlace placeAt(const std::vector<std::uint8_t>& image, int x, int y, float fx, float fy) {
+  return {image.data() + y * kWidth + x, kWidth, fx, fy};
 }
 
 TEST(Kernels, ReadAPatchByBilinearInterpolation) {
   const std::vector<std::uint8_t> image = noise();
   const PatchShape shape = PatchShape::ofSide(7);
-  const std::vector<float> patch = read(active(), image, 11, 20, 0.3F, 0.8F, shape);
+  Template nothing(shape);
+  std::vector<float> patch(static_cast<std::size_t>(shape.floats()));
+  AlignmentSums sums{};
+  active().align(placeAt(image, 11, 20, 0.3F, 0.8F), shape, nothing.patch, patch.data(), &sums);
+  Template made(shape);
+  active().makeTemplate(placeAt(image, 10, 19, 0.3F, 0.8F), shape, false, &made.patch);
+  const auto between = [&image](int x, int y) {
+    const auto at = [&image](int px, int py) { return static_cast<float>(image[py * kWidth + px]); };
+    const float upper = 0.7F * at(x, y) + 0.3F * at(x + 1, y);
+    const float lower = 0.7F * at(x, y + 1) + 0.3F * at(x + 1, y + 1);
+    return 0.2F * upper + 0.8F * lower;
+  };
   for (int y = 0; y < 7; ++y) {
     for (int x = 0; x < 7; ++x) {
-      const auto at = [&image](int px, int py) { return static_cast<float>(image[py * kWidth + px]); };
-      const float upper = 0.7F * at(11 + x, 20 + y) + 0.3F * at(12 + x, 20 + y);
-      const float lower = 0.7F * at(11 + x, 21 + y) + 0.3F * at(12 + x, 21 + y);
-      EXPECT_NEAR(patch[y * kLanes + x], 0.2F * upper + 0.8F * lower, 1e-3F);
+      const int i = y * kLanes + x;
+      EXPECT_NEAR(patch[i], between(11 + x, 20 + y), 1e-3F);
+      EXPECT_NEAR(made.patch.gray[i] + made.patch.mean, between(11 + x, 20 + y), 1e-3F);
+      EXPECT_NEAR(made.patch.gradient_x[i], 0.5F * (between(12 + x, 20 + y) - between(10 + x, 20 + y)),
+                  1e-3F);
+      EXPECT_NEAR(made.patch.gradient_y[i], 0.5F * (between(11 + x, 21 + y) - between(11 + x, 19 + y)),
+                  1e-3F);
+    }
+  }
+}
+
+TEST(Kernels, SumsOfATemplateAreThoseOfItsPixels) {
+  const std::vector<std::uint8_t> image = noise();
+  for (const int side : {3, 7, 9, 21}) {
+    for (const bool project : {false, true}) {
+      const PatchShape shape = PatchShape::ofSide(side);
+      Template made(shape);
+      active().makeTemplate(placeAt(image, 10, 19, 0.3F, 0.8F), shape, project, &made.patch);
+      double gray = 0, gg = 0, gx = 0, xx = 0, xy = 0, yy = 0;
+      for (int i = 0; i < shape.floats(); ++i) {
+        const double g = made.patch.gray[i], x = made.patch.gradient_x[i], y = made.patch.gradient_y[i];
+        gray += g;
+        gg += g * g;
+        gx += g * x;
+        xx += x * x;
+        xy += x * y;
+        yy += y * y;
+      }
+      const double tolerance = 1e-5 * (gg + xx + yy);
+      EXPECT_NEAR(gray, 0.0, tolerance);
+      EXPECT_NEAR(made.patch.gray_gray, gg, tolerance);
+      EXPECT_NEAR(made.patch.gray_x, gx, tolerance);
+      EXPECT_NEAR(made.patch.xx, xx, tolerance);
+      EXPECT_NEAR(made.patch.xy, xy, tolerance);
+      EXPECT_NEAR(made.patch.yy, yy, tolerance);
     }
   }
 }
@@ -56,8 +95,7 @@ TEST(Kernels, ATemplateThatIsProjectedIsBlindToGainAndOffset) {
   const std::vector<std::uint8_t> image = noise();
   const PatchShape shape = PatchShape::ofSide(7);
   Template made(shape);
-  active().makeTemplate(read(active(), image, 10, 10, 0.0F, 0.0F, PatchShape::ofSide(9)).data(), shape, true,
-                        &made.patch);
+  active().makeTemplate(placeAt(image, 10, 10, 0.0F, 0.0F), shape, true, &made.patch);
   // The same pixels through another gain and offset.
   std::vector<std::uint8_t> brighter(image.size());
   for (std::size_t i = 0; i < image.size(); ++i) brighter[i] = static_cast<std::uint8_t>(image[i] / 2 + 40);
@@ -78,13 +116,10 @@ TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
   for (int t = 1; t < count; ++t) {
     for (const int side : {3, 7, 9, 15, 21}) {
       const PatchShape shape = PatchShape::ofSide(side);
-      const PatchShape larger = PatchShape::ofSide(side + 2);
       for (const bool project : {false, true}) {
         Template a(shape), b(shape);
-        tables[0]->makeTemplate(read(*tables[0], image, 5, 6, 0.37F, 0.61F, larger).data(), shape, project,
-                                &a.patch);
-        tables[t]->makeTemplate(read(*tables[t], image, 5, 6, 0.37F, 0.61F, larger).data(), shape, project,
-                                &b.patch);
+        tables[0]->makeTemplate(placeAt(image, 5, 6, 0.37F, 0.61F), shape, project, &a.patch);
+        tables[t]->makeTemplate(placeAt(image, 5, 6, 0.37F, 0.61F), shape, project, &b.patch);
         ASSERT_EQ(std::memcmp(a.values.data(), b.values.data(), a.values.size() * sizeof(float)), 0) << side;
         EXPECT_EQ(a.patch.xx, b.patch.xx);
         EXPECT_EQ(a.patch.gray_x, b.patch.gray_x);

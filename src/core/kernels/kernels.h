@@ -26,6 +26,9 @@ constexpr std::int16_t kFlags = 3;
 constexpr std::uint8_t kPeakInRow = 1;
 constexpr std::uint8_t kPeakInColumn = 2;
 
+/// The largest patch [px].
+constexpr int kMaxPatchSide = 21;
+
 /// A square patch of `side` x `side` pixels, kept as `side` rows of `vectors` * kLanes floats. Columns from
 /// `side` on are zero in a template.
 struct PatchShape {
@@ -37,7 +40,7 @@ struct PatchShape {
 };
 
 /// Where a patch begins in an 8-bit image: its top-left pixel, and the fraction of a pixel right and below
-/// it. Reading touches `side` + 1 rows of `vectors` * kLanes + 1 pixels.
+/// it. Reading n rows touches n + 1 rows of the image, and 3 pixels beyond `vectors` * kLanes.
 struct PatchPlace {
   const std::uint8_t* data;
   std::ptrdiff_t stride;
@@ -103,13 +106,9 @@ struct KernelTable {
   void (*halveRow)(const std::uint8_t* above, const std::uint8_t* middle, const std::uint8_t* below,
                    int width, std::uint16_t* row, std::uint8_t* output);
 
-  /// Reads a patch with bilinear interpolation into `output` (shape.floats()).
-  void (*readPatch)(const PatchPlace& place, const PatchShape& shape, float* output);
-
-  /// Makes a template from a patch that is larger by one pixel on each side (shape.side + 2).
+  /// Makes a template. `place`: of the patch and a rim of one pixel around it, shape.side + 2 a side.
   /// `project`: takes from the gradients what a change of gain and offset would explain.
-  void (*makeTemplate)(const float* larger_patch, const PatchShape& shape, bool project,
-                       PatchTemplate* patch);
+  void (*makeTemplate)(const PatchPlace& place, const PatchShape& shape, bool project, PatchTemplate* patch);
 
   /// Sums of a patch of the second image against a template; the patch itself, less the template's mean, goes
   /// to `patch` (shape.floats()).

@@ -10,8 +10,6 @@ namespace tet_line_tracker {
 namespace kernels {
 namespace {
 
-constexpr int kMaxVectors = 3;
-
 /// 1 for columns inside the patch, 0 outside.
 inline __attribute__((always_inline)) Float8 insideColumns(int vector, int side) {
   const Int8 lanes = {0, 1, 2, 3, 4, 5, 6, 7};
@@ -100,95 +98,117 @@ inline __attribute__((always_inline)) void readRow(const std::uint8_t* pixels, f
   }
 }
 
+/// A row of a larger patch: gray one pixel right of `pixels`, and its central difference, unscaled.
 template <int kVectors>
-void readPatchOf(const PatchPlace& place, const PatchShape& shape, float* output) {
-  Float8 upper[kVectors], lower[kVectors];
-  readRow<kVectors>(place.data, place.fraction_x, upper);
-  for (int y = 0; y < shape.side; ++y) {
-    readRow<kVectors>(place.data + (y + 1) * place.stride, place.fraction_x, lower);
-    for (int v = 0; v < kVectors; ++v) {
-      store(output + (y * kVectors + v) * kLanes, upper[v] + (lower[v] - upper[v]) * place.fraction_y);
-      upper[v] = lower[v];
-    }
+inline __attribute__((always_inline)) void readRowWithSlope(const std::uint8_t* pixels, float fraction_x,
+                                                            Float8* gray, Float8* slope) {
+  for (int v = 0; v < kVectors; ++v) {
+    const std::uint8_t* p = pixels + v * kLanes;
+    const Float8 a = loadPixels(p), b = loadPixels(p + 1), c = loadPixels(p + 2), d = loadPixels(p + 3);
+    gray[v] = b + (c - b) * fraction_x;
+    slope[v] = (c - a) + ((d - b) - (c - a)) * fraction_x;
   }
 }
 
-void readPatch(const PatchPlace& place, const PatchShape& shape, float* output) {
-  switch (shape.vectors) {
-    case 1:
-      return readPatchOf<1>(place, shape, output);
-    case 2:
-      return readPatchOf<2>(place, shape, output);
-    default:
-      return readPatchOf<3>(place, shape, output);
-  }
-}
-
-void makeTemplate(const float* larger_patch, const PatchShape& shape, bool project, PatchTemplate* patch) {
-  const int larger_row = PatchShape::ofSide(shape.side + 2).vectors * kLanes;
-  const int row = shape.vectors * kLanes;
-  const float pixels = static_cast<float>(shape.side * shape.side);
+template <int kVectors>
+void makeTemplateOf(const PatchPlace& place, const PatchShape& shape, bool project, PatchTemplate* patch) {
   const Float8 zero = {0, 0, 0, 0, 0, 0, 0, 0};
-  Float8 inside[kMaxVectors];
-  for (int v = 0; v < shape.vectors; ++v) inside[v] = insideColumns(v, shape.side);
+  const float pixels = static_cast<float>(shape.side * shape.side);
+  Float8 inside[kVectors];
+  for (int v = 0; v < kVectors; ++v) inside[v] = insideColumns(v, shape.side);
+  // Sums are taken about some gray value of the patch: small numbers keep their digits.
+  const float origin = static_cast<float>(place.data[place.stride + 1]);
 
-  Float8 gray_sum = zero, x_sum = zero, y_sum = zero;
-  for (int y = 0; y < shape.side; ++y) {
-    for (int v = 0; v < shape.vectors; ++v) {
-      const float* here = larger_patch + (y + 1) * larger_row + v * kLanes + 1;
-      const Float8 gray = load(here) * inside[v];
-      const Float8 x = (load(here + 1) - load(here - 1)) * 0.5F * inside[v];
-      const Float8 y_gradient = (load(here + larger_row) - load(here - larger_row)) * 0.5F * inside[v];
-      const int i = y * row + v * kLanes;
-      store(patch->gray + i, gray);
-      store(patch->gradient_x + i, x);
-      store(patch->gradient_y + i, y_gradient);
-      gray_sum += gray;
-      x_sum += x;
-      y_sum += y_gradient;
+  Float8 g = zero, x = zero, y = zero, gg = zero, gx = zero, gy = zero, xx = zero, xy = zero, yy = zero;
+  // Rows above, at and below the one that is written, and the image row that follows.
+  Float8 above[kVectors], here[kVectors], slope_here[kVectors], gray[kVectors], slope[kVectors];
+  Float8 next_gray[kVectors], next_slope[kVectors];
+  readRowWithSlope<kVectors>(place.data, place.fraction_x, gray, slope);
+  readRowWithSlope<kVectors>(place.data + place.stride, place.fraction_x, next_gray, next_slope);
+  for (int v = 0; v < kVectors; ++v) {
+    above[v] = gray[v] + (next_gray[v] - gray[v]) * place.fraction_y;
+    gray[v] = next_gray[v];
+    slope[v] = next_slope[v];
+  }
+  readRowWithSlope<kVectors>(place.data + 2 * place.stride, place.fraction_x, next_gray, next_slope);
+  for (int v = 0; v < kVectors; ++v) {
+    here[v] = gray[v] + (next_gray[v] - gray[v]) * place.fraction_y;
+    slope_here[v] = slope[v] + (next_slope[v] - slope[v]) * place.fraction_y;
+    gray[v] = next_gray[v];
+    slope[v] = next_slope[v];
+  }
+  for (int row = 0; row < shape.side; ++row) {
+    readRowWithSlope<kVectors>(place.data + (row + 3) * place.stride, place.fraction_x, next_gray,
+                               next_slope);
+    for (int v = 0; v < kVectors; ++v) {
+      const Float8 below = gray[v] + (next_gray[v] - gray[v]) * place.fraction_y;
+      const Float8 a = (here[v] - origin) * inside[v];
+      const Float8 b = slope_here[v] * 0.5F * inside[v];
+      const Float8 c = (below - above[v]) * 0.5F * inside[v];
+      const int i = (row * kVectors + v) * kLanes;
+      store(patch->gray + i, a);
+      store(patch->gradient_x + i, b);
+      store(patch->gradient_y + i, c);
+      g += a;
+      x += b;
+      y += c;
+      gg += a * a;
+      gx += a * b;
+      gy += a * c;
+      xx += b * b;
+      xy += b * c;
+      yy += c * c;
+      above[v] = here[v];
+      here[v] = below;
+      slope_here[v] = slope[v] + (next_slope[v] - slope[v]) * place.fraction_y;
+      gray[v] = next_gray[v];
+      slope[v] = next_slope[v];
     }
   }
-  patch->mean = sum(gray_sum) / pixels;
-  const float x_mean = project ? sum(x_sum) / pixels : 0.0F;
-  const float y_mean = project ? sum(y_sum) / pixels : 0.0F;
-
-  Float8 gg = zero, gx = zero, gy = zero;
-  for (int y = 0; y < shape.side; ++y) {
-    for (int v = 0; v < shape.vectors; ++v) {
-      const int i = y * row + v * kLanes;
-      const Float8 gray = (load(patch->gray + i) - patch->mean) * inside[v];
-      const Float8 x = (load(patch->gradient_x + i) - x_mean) * inside[v];
-      const Float8 y_gradient = (load(patch->gradient_y + i) - y_mean) * inside[v];
-      store(patch->gray + i, gray);
-      store(patch->gradient_x + i, x);
-      store(patch->gradient_y + i, y_gradient);
-      gg += gray * gray;
-      gx += gray * x;
-      gy += gray * y_gradient;
-    }
-  }
-  patch->gray_gray = sum(gg);
-  patch->gray_x = sum(gx);
-  patch->gray_y = sum(gy);
-  const float floor = 1e-3F * pixels;  // a patch without contrast has no gain to take out
-  const float x_gain = project && patch->gray_gray > floor ? patch->gray_x / patch->gray_gray : 0.0F;
-  const float y_gain = project && patch->gray_gray > floor ? patch->gray_y / patch->gray_gray : 0.0F;
-
-  Float8 xx = zero, xy = zero, yy = zero;
-  for (int i = 0; i < shape.floats(); i += kLanes) {
-    const Float8 gray = load(patch->gray + i);
-    const Float8 x = load(patch->gradient_x + i) - gray * x_gain;
-    const Float8 y = load(patch->gradient_y + i) - gray * y_gain;
-    store(patch->gradient_x + i, x);
-    store(patch->gradient_y + i, y);
-    xx += x * x;
-    xy += x * y;
-    yy += y * y;
-  }
+  const float g_sum = sum(g);
+  const float mean = g_sum / pixels;
+  patch->mean = origin + mean;
+  patch->gray_gray = sum(gg) - g_sum * mean;
+  patch->gray_x = sum(gx) - sum(x) * mean;
+  patch->gray_y = sum(gy) - sum(y) * mean;
   patch->xx = sum(xx);
   patch->xy = sum(xy);
   patch->yy = sum(yy);
-  if (project) patch->gray_x = patch->gray_y = 0.0F;
+  float x_mean = 0.0F, y_mean = 0.0F, x_gain = 0.0F, y_gain = 0.0F;
+  if (project) {
+    x_mean = sum(x) / pixels;
+    y_mean = sum(y) / pixels;
+    const float floor = 1e-3F * pixels;  // a patch without contrast has no gain to take out
+    if (patch->gray_gray > floor) {
+      x_gain = patch->gray_x / patch->gray_gray;
+      y_gain = patch->gray_y / patch->gray_gray;
+    }
+    patch->xx -= sum(x) * x_mean + x_gain * patch->gray_x;
+    patch->xy -= sum(x) * y_mean + x_gain * patch->gray_y;
+    patch->yy -= sum(y) * y_mean + y_gain * patch->gray_y;
+    patch->gray_x = patch->gray_y = 0.0F;
+  }
+  for (int row = 0; row < shape.side; ++row) {
+    for (int v = 0; v < kVectors; ++v) {
+      const int i = (row * kVectors + v) * kLanes;
+      const Float8 a = (load(patch->gray + i) - mean) * inside[v];
+      store(patch->gray + i, a);
+      if (!project) continue;
+      store(patch->gradient_x + i, (load(patch->gradient_x + i) - x_mean - a * x_gain) * inside[v]);
+      store(patch->gradient_y + i, (load(patch->gradient_y + i) - y_mean - a * y_gain) * inside[v]);
+    }
+  }
+}
+
+void makeTemplate(const PatchPlace& place, const PatchShape& shape, bool project, PatchTemplate* patch) {
+  switch (shape.vectors) {
+    case 1:
+      return makeTemplateOf<1>(place, shape, project, patch);
+    case 2:
+      return makeTemplateOf<2>(place, shape, project, patch);
+    default:
+      return makeTemplateOf<3>(place, shape, project, patch);
+  }
 }
 
 template <int kVectors>
@@ -243,8 +263,8 @@ float absoluteDifference(const float* patch, const PatchShape& shape, const Patc
 }
 
 constexpr KernelTable makeTable(const char* name) {
-  return {name,      halveRow,   readPatch,   makeTemplate, align, absoluteDifference,
-          findEdges, sumOffsets, gradientRow, findPeaks};
+  return {name,      halveRow,   makeTemplate, align,    absoluteDifference,
+          findEdges, sumOffsets, gradientRow,  findPeaks};
 }
 
 }  // namespace
