@@ -10,6 +10,13 @@
 
 namespace tet_line_tracker {
 
+/// What is known of an image before lines are detected in it.
+struct DetectionHints {
+  cv::Mat mask;  ///< 8-bit, size of the image: lines only where it is not zero; empty: everywhere
+  std::vector<LineSegment>
+      tracked;  ///< lines that need not be found again; a detector may do so nevertheless
+};
+
 /// Finds straight segments in one gray image. Not thread-safe: buffers are kept from call to call.
 class LineDetector {
  public:
@@ -21,16 +28,16 @@ class LineDetector {
   /// Replaces `lines` by the segments of `gray` (8-bit, one channel, any stride) that are at least
   /// `min_length` long [px] after clipping to the pixel centres of the image. The brighter side of every
   /// segment lies to the left of its direction() on screen, where normal() points. Longest first; the same
-  /// image gives the same lines in the same order. With a `mask` (8-bit, size of `gray`; empty: everything)
-  /// only segments that lie mostly where it is not zero are given. Throws std::invalid_argument when type or
-  /// size do not fit; an empty image has no lines.
+  /// image gives the same lines in the same order. Of lines that lie partly on the mask those are given that
+  /// lie mostly where it is not zero. Throws std::invalid_argument when type or size do not fit; an empty
+  /// image has no lines.
   void detect(const cv::Mat& gray, float min_length, std::vector<LineSegment>& lines,
-              const cv::Mat& mask = cv::Mat());
+              const DetectionHints& hints = DetectionHints());
 
  private:
-  /// Appends segments to `lines`, brighter side to the left. `gray` and `mask` are of the promised type and
+  /// Appends segments to `lines`, brighter side to the left. `gray` and `hints` are of the promised type and
   /// size. Short, hidden and overhanging segments may be among them: detect() sees to these.
-  virtual void find(const cv::Mat& gray, float min_length, const cv::Mat& mask,
+  virtual void find(const cv::Mat& gray, float min_length, const DetectionHints& hints,
                     std::vector<LineSegment>& lines) = 0;
 };
 

@@ -48,6 +48,12 @@ std::int16_t anchorThreshold(const ImageLevels& levels) {
 
 }  // namespace
 
+EdgeDetector::Axis EdgeDetector::axisOf(bool along_x) const {
+  const std::ptrdiff_t stride = gradient_.stride();
+  return along_x ? Axis{1, stride, gradient_.width(), gradient_.height(), true}
+                 : Axis{stride, 1, gradient_.height(), gradient_.width(), false};
+}
+
 void EdgeDetector::collectAnchors(float min_length, const cv::Mat& mask) {
   anchors_.clear();
   const auto findPeaks = kernels::active().findPeaks;
@@ -176,6 +182,20 @@ void EdgeDetector::markLine(const Axis& axis, const Fit& fit, float begin, float
   }
 }
 
+void EdgeDetector::markTracked(const LineSegment& line) {
+  const Eigen::Vector2f way = line.end - line.start;
+  const bool along_x = std::abs(way.x()) >= std::abs(way.y());
+  const Axis axis = axisOf(along_x);
+  const Eigen::Vector2f middle = line.middle();
+  Fit fit;
+  fit.slope = along_x ? way.y() / way.x() : way.x() / way.y();
+  fit.mean_t = along_x ? middle.x() : middle.y();
+  fit.mean_o = along_x ? middle.y() : middle.x();
+  const float half = 0.5F * std::abs(along_x ? way.x() : way.y());
+  const auto last = static_cast<float>(axis.size_along - 1);
+  markLine(axis, fit, std::clamp(fit.mean_t - half, 0.0F, last), std::clamp(fit.mean_t + half, 0.0F, last));
+}
+
 void EdgeDetector::markTried(const Axis& axis) {
   for (const RidgePoint& point : points_) {
     const int o = cvRound(point.o);
@@ -185,12 +205,10 @@ void EdgeDetector::markTried(const Axis& axis) {
 }
 
 void EdgeDetector::drawLine(const Anchor& anchor, float min_length, std::vector<LineSegment>& lines) {
-  const std::ptrdiff_t stride = gradient_.stride();
-  const std::ptrdiff_t at_anchor = anchor.y * stride + anchor.x;
+  const std::ptrdiff_t at_anchor = anchor.y * gradient_.stride() + anchor.x;
   if ((gradient_.magnitude()[at_anchor] & kTried) != 0) return;
 
-  const Axis axis = anchor.along_x ? Axis{1, stride, gradient_.width(), gradient_.height(), true}
-                                   : Axis{stride, 1, gradient_.height(), gradient_.width(), false};
+  const Axis axis = axisOf(anchor.along_x);
   const int anchor_t = anchor.along_x ? anchor.x : anchor.y;
   const int anchor_o = anchor.along_x ? anchor.y : anchor.x;
   const kernels::Gradient gradient = gradient_.gradient()[at_anchor];
@@ -242,13 +260,14 @@ void EdgeDetector::drawLine(const Anchor& anchor, float min_length, std::vector<
   lines.push_back(line);
 }
 
-void EdgeDetector::find(const cv::Mat& gray, float min_length, const cv::Mat& mask,
+void EdgeDetector::find(const cv::Mat& gray, float min_length, const DetectionHints& hints,
                         std::vector<LineSegment>& lines) {
   if (std::min(gray.cols, gray.rows) < GradientImage::kMinSide) return;
   gradient_.compute(gray);
   anchor_threshold_ = anchorThreshold(gradient_.levels(gray));
   ridge_threshold_ = static_cast<std::int16_t>(kRidgeShare * static_cast<float>(anchor_threshold_));
-  collectAnchors(min_length, mask);
+  for (const LineSegment& line : hints.tracked) markTracked(line);
+  collectAnchors(min_length, hints.mask);
   for (const Anchor& anchor : anchors_) drawLine(anchor, min_length, lines);
 }
 

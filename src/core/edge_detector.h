@@ -61,8 +61,9 @@ class EdgeDetector : public LineDetector {
     float at(float along) const { return mean_o + slope * (along - mean_t); }
   };
 
-  void find(const cv::Mat& gray, float min_length, const cv::Mat& mask,
+  void find(const cv::Mat& gray, float min_length, const DetectionHints& hints,
             std::vector<LineSegment>& lines) override;
+  Axis axisOf(bool along_x) const;
   void collectAnchors(float min_length, const cv::Mat& mask);
   /// Whether the gradient at points `spacing` apart to both sides of an anchor fits a line with its
   /// direction. Spares drawing lines from most anchors in texture and on curves.
@@ -79,6 +80,8 @@ class EdgeDetector : public LineDetector {
   /// Draws the line through an anchor and appends it when it holds.
   void drawLine(const Anchor& anchor, float min_length, std::vector<LineSegment>& lines);
   void growOneWay(const Axis& axis, int anchor_t, int step, float sign, float prior_slope, Fit& fit);
+  /// Takes the place of a line that is known, so that it is not found again.
+  void markTracked(const LineSegment& line);
   void markLine(const Axis& axis, const Fit& fit, float begin, float end);
   void markTried(const Axis& axis);
 

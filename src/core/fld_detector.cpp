@@ -32,7 +32,7 @@ int leftMinusRight(const cv::Mat& gray, const LineSegment& line) {
 
 }  // namespace
 
-void FldDetector::find(const cv::Mat& gray, float min_length, const cv::Mat& /*mask*/,
+void FldDetector::find(const cv::Mat& gray, float min_length, const DetectionHints& /*hints*/,
                        std::vector<LineSegment>& lines) {
   if (gray.cols < kMinSide || gray.rows < kMinSide) return;
   // 10 px is OpenCV's default, below which the pieces are mostly noise.

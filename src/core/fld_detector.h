@@ -15,7 +15,7 @@ class FldDetector : public LineDetector {
   std::string name() const override { return "fld"; }
 
  private:
-  void find(const cv::Mat& gray, float min_length, const cv::Mat& mask,
+  void find(const cv::Mat& gray, float min_length, const DetectionHints& hints,
             std::vector<LineSegment>& lines) override;
 
   cv::Ptr<cv::ximgproc::FastLineDetector> detector_;

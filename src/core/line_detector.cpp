@@ -66,7 +66,8 @@ bool works(const Candidate& candidate) {
 }  // namespace
 
 void LineDetector::detect(const cv::Mat& gray, float min_length, std::vector<LineSegment>& lines,
-                          const cv::Mat& mask) {
+                          const DetectionHints& hints) {
+  const cv::Mat& mask = hints.mask;
   lines.clear();
   if (gray.empty()) return;
   requireGrayBytes(gray, "the image");
@@ -78,7 +79,7 @@ void LineDetector::detect(const cv::Mat& gray, float min_length, std::vector<Lin
                                   "x" + std::to_string(mask.rows));
     }
   }
-  find(gray, min_length, mask, lines);
+  find(gray, min_length, hints, lines);
 
   const ImageBounds bounds = ImageBounds::ofImage(gray.cols, gray.rows);
   std::size_t kept = 0;

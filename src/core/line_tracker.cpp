@@ -9,7 +9,7 @@
 
 #include "field_of_view.h"
 #include "mask.h"
-#include "new_line_chooser.h"
+#include "same_edge.h"
 #include "stopwatch.h"
 #include "tet_line_tracker/endpoint_tracker.h"
 #include "tet_line_tracker/image_pyramid.h"
@@ -44,6 +44,7 @@ struct Appearance {
 };
 
 /// Tracks this near to each other follow the same edge.
+constexpr SameEdgeLimits kNewLineLimits{};
 constexpr SameEdgeLimits kDuplicateLimits{0.05F, 1.5F, 0.3F};
 
 /// Share of the cells of an 8x6 grid over the image that a line crosses.
@@ -105,6 +106,8 @@ class LineTracker::Implementation {
   void dropDuplicates();
   bool detectionIsDue();
   void addLines(const cv::Mat& gray);
+  /// The edge under a detected segment, when it holds and enough of it can be tracked.
+  std::optional<EdgeFit> edgeOf(const cv::Mat& gray, const LineSegment& candidate);
   void describeLines();
   void normalizeEndpoints();
 
@@ -130,7 +133,7 @@ class LineTracker::Implementation {
   std::size_t lines_after_detection_{0};
   float coverage_after_detection_{0.0F};
   int images_since_detection_{0};
-  std::vector<LineSegment> tracked_segments_;
+  DetectionHints hints_;
   std::vector<LineSegment> candidates_;
   std::uint64_t next_id_{0};
   bool any_epoch_{false};
@@ -345,46 +348,54 @@ bool LineTracker::Implementation::detectionIsDue() {
 }
 
 void LineTracker::Implementation::addLines(const cv::Mat& gray) {
-  const float min_length = static_cast<float>(in_force_.detection.min_length);
-  detector_->detect(gray, min_length, candidates_, mask_in_force_);
+  hints_.mask = mask_in_force_;
+  hints_.tracked.clear();
+  for (const TrackedLine& line : frame_.lines) hints_.tracked.push_back(line.segment);
+  detector_->detect(gray, static_cast<float>(in_force_.detection.min_length), candidates_, hints_);
   frame_.detected = true;
   frame_.statistics.lines_detected = static_cast<std::uint32_t>(candidates_.size());
 
-  std::size_t usable = 0;
-  for (LineSegment candidate : candidates_) {
-    if (in_force_.refiner.refine) {
-      const EdgeFit fit = refiner_.fit(gray, candidate, refiner_.contrastOf(gray, candidate));
-      if (fit.support < in_force_.detection.min_new_support) continue;
-      candidate = fit.segment;
-    }
-    std::optional<LineSegment> inside = clip(candidate, bounds_);
-    if (!inside || inside->length() < min_length) continue;
-    const ViewCut cut = cutToView(*inside);
-    count(cut);
-    if (cut != ViewCut::kLeftOut) candidates_[usable++] = *inside;
-  }
-  candidates_.resize(usable);
-
-  tracked_segments_.clear();
-  for (const TrackedLine& line : frame_.lines) tracked_segments_.push_back(line.segment);
+  // Longest first, until there is no more room. The cheap test before the fit, and again after it.
   const std::size_t max_lines = static_cast<std::size_t>(in_force_.detection.max_lines);
-  const std::size_t room = max_lines - std::min(max_lines, frame_.lines.size());
-  chooseNewLines(tracked_segments_, room, candidates_);
-  for (const LineSegment& segment : candidates_) {
+  const std::size_t tracked = frame_.lines.size();
+  for (const LineSegment& candidate : candidates_) {
+    if (frame_.lines.size() >= max_lines) break;
+    if (onSameEdge(candidate, hints_.tracked, kNewLineLimits)) continue;
+    const std::optional<EdgeFit> edge = edgeOf(gray, candidate);
+    if (!edge || onSameEdge(edge->segment, hints_.tracked, kNewLineLimits)) continue;
+    hints_.tracked.push_back(edge->segment);
     TrackedLine line;
     line.id = next_id_++;
-    line.segment = segment;
+    line.segment = edge->segment;
     frame_.lines.push_back(line);
     if (appearances_.size() < frame_.lines.size()) appearances_.resize(frame_.lines.size());
     Appearance& appearance = appearances_[frame_.lines.size() - 1];
-    appearance.contrast = refiner_.contrastOf(gray, segment);
+    appearance.contrast = edge->contrast;
     appearance.start_parallax.setZero();
     appearance.end_parallax.setZero();
   }
-  frame_.statistics.lines_added = static_cast<std::uint32_t>(candidates_.size());
+  frame_.statistics.lines_added = static_cast<std::uint32_t>(frame_.lines.size() - tracked);
   lines_after_detection_ = frame_.lines.size();
   coverage_after_detection_ = coverageOf(frame_.lines, frame_.width, frame_.height);
   images_since_detection_ = 0;
+}
+
+std::optional<EdgeFit> LineTracker::Implementation::edgeOf(const cv::Mat& gray,
+                                                           const LineSegment& candidate) {
+  EdgeFit edge;
+  edge.segment = candidate;
+  edge.contrast = refiner_.contrastOf(gray, candidate);
+  if (in_force_.refiner.refine) {
+    edge = refiner_.fit(gray, candidate, edge.contrast);
+    if (edge.support < in_force_.detection.min_new_support) return std::nullopt;
+  }
+  const std::optional<LineSegment> inside = clip(edge.segment, bounds_);
+  if (!inside || inside->length() < static_cast<float>(in_force_.detection.min_length)) return std::nullopt;
+  edge.segment = *inside;
+  const ViewCut cut = cutToView(edge.segment);
+  count(cut);
+  if (cut == ViewCut::kLeftOut) return std::nullopt;
+  return edge;
 }
 
 void LineTracker::Implementation::describeLines() {

@@ -16,7 +16,7 @@ constexpr int kMinSide = 8;
 
 LsdDetector::LsdDetector() : detector_(cv::createLineSegmentDetector()) {}
 
-void LsdDetector::find(const cv::Mat& gray, float /*min_length*/, const cv::Mat& /*mask*/,
+void LsdDetector::find(const cv::Mat& gray, float /*min_length*/, const DetectionHints& /*hints*/,
                        std::vector<LineSegment>& lines) {
   if (gray.cols < kMinSide || gray.rows < kMinSide) return;
   detector_->detect(gray, found_);

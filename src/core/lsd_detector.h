@@ -14,7 +14,7 @@ class LsdDetector : public LineDetector {
   std::string name() const override { return "lsd"; }
 
  private:
-  void find(const cv::Mat& gray, float min_length, const cv::Mat& mask,
+  void find(const cv::Mat& gray, float min_length, const DetectionHints& hints,
             std::vector<LineSegment>& lines) override;
 
   cv::Ptr<cv::LineSegmentDetector> detector_;

@@ -1,6 +1,7 @@
 #include "rotation_aligner.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -10,11 +11,11 @@
 namespace tet_line_tracker {
 namespace {
 
-constexpr std::size_t kMaxPoints = 800;
+constexpr std::size_t kMaxPoints = 600;
 constexpr std::size_t kMinPoints = 40;
-constexpr float kMinSteepness = 2.0F;  // gray difference over two pixels that is more than noise
-constexpr float kOutlier = 20.0F;      // gray difference from which a point counts no more
-constexpr float kMinStep = 2e-5F;      // [rad]
+constexpr std::size_t kMinSteepness = 2;  // gray difference over two pixels that is more than noise
+constexpr float kOutlier = 20.0F;         // gray difference from which a point counts no more
+constexpr float kMinStep = 2e-5F;         // [rad]
 
 /// Gray value between pixels; beyond the border the outermost pixel is repeated.
 float interpolate(const cv::Mat& image, float x, float y) {
@@ -43,6 +44,7 @@ void RotationAligner::setCamera(const CameraModel& camera) {
   height_ = halved(camera.calibration().height);
   points_.clear();
   movements_.assign(static_cast<std::size_t>(width_ * height_), Eigen::Matrix<float, 2, 3>::Zero());
+  steepness_.assign(movements_.size(), 0);
   constexpr double kSmallTurn = 1e-3;  // [rad]
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
@@ -70,23 +72,21 @@ bool RotationAligner::describe(const ImagePyramid& first) {
   if (image.cols != width_ || image.rows != height_) return false;
 
   // The steepest pixels: a threshold from the distribution of the steepness.
-  steepness_.assign(movements_.size(), 0.0F);
   for (int y = 1; y + 1 < height_; ++y) {
     const std::uint8_t* above = image.ptr<std::uint8_t>(y - 1);
     const std::uint8_t* row = image.ptr<std::uint8_t>(y);
     const std::uint8_t* below = image.ptr<std::uint8_t>(y + 1);
+    std::uint16_t* steepness = steepness_.data() + y * width_;
     for (int x = 1; x + 1 < width_; ++x) {
-      const int dx = row[x + 1] - row[x - 1];
-      const int dy = below[x] - above[x];
-      steepness_[static_cast<std::size_t>(y * width_ + x)] = static_cast<float>(std::abs(dx) + std::abs(dy));
+      steepness[x] =
+          static_cast<std::uint16_t>(std::abs(row[x + 1] - row[x - 1]) + std::abs(below[x] - above[x]));
     }
   }
-  float threshold = kMinSteepness;
-  if (steepness_.size() > kMaxPoints) {
-    sorted_ = steepness_;
-    const auto nth = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() - kMaxPoints);
-    std::nth_element(sorted_.begin(), nth, sorted_.end());
-    threshold = std::max(threshold, *nth);
+  std::array<std::size_t, 2 * 255 + 1> histogram{};
+  for (const std::uint16_t steepness : steepness_) ++histogram[steepness];
+  std::size_t threshold = histogram.size();
+  for (std::size_t points = 0; threshold > kMinSteepness && points < kMaxPoints;) {
+    points += histogram[--threshold];
   }
   float gray_sum = 0.0F;
   Eigen::Vector3f slope_sum = Eigen::Vector3f::Zero();

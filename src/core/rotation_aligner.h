@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -53,7 +54,7 @@ class RotationAligner {
   int width_{0}, height_{0};
   std::vector<Eigen::Matrix<float, 2, 3>> movements_;  ///< of every pixel of the level
   std::vector<Point> points_;
-  std::vector<float> steepness_, sorted_;
+  std::vector<std::uint16_t> steepness_;  ///< of every pixel; 0 at the border [gray over 2 px]
   std::vector<float> values_;
   float gray_square_{0.0F};  ///< mean of gray^2
   Eigen::Matrix3f normal_inverse_{Eigen::Matrix3f::Identity()};

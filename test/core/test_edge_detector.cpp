@@ -12,6 +12,7 @@
 
 #include "edge_images.h"
 #include "kernels/kernels.h"
+#include "same_edge.h"
 
 namespace {
 
@@ -60,6 +61,24 @@ cv::Mat rectangles(cv::Size size, unsigned seed) {
   }
   cv::GaussianBlur(image, image, cv::Size(), 0.7);
   return image;
+}
+
+TEST(EdgeDetector, FindsTrackedLinesNotAgain) {
+  const cv::Mat image = rectangles({640, 480}, 4);
+  EdgeDetector detector;
+  DetectionHints hints;
+  const std::vector<LineSegment> all = linesOf(detector, image, 30.0F);
+  ASSERT_GE(all.size(), 20U);
+  for (std::size_t i = 0; i < all.size(); i += 2) hints.tracked.push_back(all[i]);
+  std::vector<LineSegment> rest;
+  detector.detect(image, 30.0F, rest, hints);
+  std::size_t found_again = 0;
+  for (const LineSegment& line : rest) found_again += onSameEdge(line, hints.tracked, {0.05F, 1.0F, 0.5F});
+  EXPECT_EQ(found_again, 0U);
+  // The others are all there, as they were or in two pieces where a tracked line crosses them.
+  for (std::size_t i = 1; i < all.size(); i += 2) {
+    EXPECT_TRUE(onSameEdge(all[i], rest, {0.05F, 1.0F, 0.5F})) << i;
+  }
 }
 
 TEST(EdgeDetector, PlacesEdgesOfAnyDirectionWithinATenthOfAPixel) {

@@ -130,7 +130,7 @@ TEST_P(EveryDetector, GivesOnlyLinesWhereTheMaskIsWhite) {
   image(cv::Rect(200, 40, 80, 80)).setTo(200);
   cv::Mat mask(image.size(), CV_8UC1, cv::Scalar(255));
   mask.colRange(0, 160).setTo(0);
-  detector_->detect(image, 40.0F, lines_, mask);
+  detector_->detect(image, 40.0F, lines_, {mask, {}});
   EXPECT_EQ(lines_.size(), 4U);
   for (const LineSegment& line : lines_) EXPECT_GT(line.middle().x(), 160.0F);
 }
@@ -138,7 +138,7 @@ TEST_P(EveryDetector, GivesOnlyLinesWhereTheMaskIsWhite) {
 TEST_P(EveryDetector, RefusesOtherTypesAndMasksOfAnotherSize) {
   EXPECT_THROW(detector_->detect(cv::Mat(50, 50, CV_8UC3), 10.0F, lines_), std::invalid_argument);
   EXPECT_THROW(detector_->detect(cv::Mat(50, 50, CV_16UC1), 10.0F, lines_), std::invalid_argument);
-  EXPECT_THROW(detector_->detect(cv::Mat(50, 50, CV_8UC1), 10.0F, lines_, cv::Mat(50, 51, CV_8UC1)),
+  EXPECT_THROW(detector_->detect(cv::Mat(50, 50, CV_8UC1), 10.0F, lines_, {cv::Mat(50, 51, CV_8UC1), {}}),
                std::invalid_argument);
 }
 

@@ -4,7 +4,7 @@
 
 #include <opencv2/video/tracking.hpp>
 
-#include "../../core/new_line_chooser.h"
+#include "../../core/same_edge.h"
 #include "../../core/stopwatch.h"
 
 namespace tet_line_tracker {
@@ -82,18 +82,19 @@ void LkEndpoints::addLines(const cv::Mat& gray) {
   frame().statistics.lines_detected = static_cast<std::uint32_t>(candidates_.size());
   const ImageBounds bounds =
       ImageBounds::ofImage(frame().width, frame().height, static_cast<float>(detection().border));
-  candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
-                                   [&bounds](const LineSegment& line) {
-                                     return !bounds.contains(line.start) || !bounds.contains(line.end);
-                                   }),
-                    candidates_.end());
-  std::vector<LineSegment> tracked;
-  tracked.reserve(lines.size());
-  for (const TrackedLine& line : lines) tracked.push_back(line.segment);
-  const auto room = static_cast<std::size_t>(detection().max_lines) - lines.size();
-  chooseNewLines(tracked, room, candidates_);
-  for (const LineSegment& segment : candidates_) lines.push_back(newLine(segment));
-  frame().statistics.lines_added = static_cast<std::uint32_t>(candidates_.size());
+  const std::size_t tracked = lines.size();
+  const auto max_lines = static_cast<std::size_t>(detection().max_lines);
+  std::vector<LineSegment> taken;
+  taken.reserve(max_lines);
+  for (const TrackedLine& line : lines) taken.push_back(line.segment);
+  for (const LineSegment& candidate : candidates_) {
+    if (lines.size() >= max_lines) break;
+    if (!bounds.contains(candidate.start) || !bounds.contains(candidate.end)) continue;
+    if (onSameEdge(candidate, taken, SameEdgeLimits{})) continue;
+    taken.push_back(candidate);
+    lines.push_back(newLine(candidate));
+  }
+  frame().statistics.lines_added = static_cast<std::uint32_t>(lines.size() - tracked);
 }
 
 }  // namespace tet_line_tracker
