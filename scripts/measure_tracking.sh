@@ -52,7 +52,6 @@ judge() {
   judge no_gain_and_offset "$hard" --set gain_and_offset=false
   judge no_robust_patches "$hard" --set robust_patches=false
   judge no_refine "$hard" --set refine=false --set finest_level=0
-  judge with_fit_ends "$hard" --set fit_ends=true
   judge image_prior "$hard" --set prior=image
   judge no_parallax "$hard" --set keep_parallax=false
 } | tee "$results/tables.txt"

@@ -11,7 +11,7 @@ namespace tet_line_tracker {
 struct EdgeFit {
   LineSegment segment;   ///< start and end in their roles [px]
   float support{0.0F};   ///< share of the samples along the segment that lie on the edge, 0..1
-  float contrast{0.0F};  ///< median slope of the gray values across the edge, positive where the left side on
+  float contrast{0.0F};  ///< mean slope of the gray values across the edge, positive where the left side on
                          ///< screen is brighter [gray / px]
   float sigma_px{0.0F};  ///< standard deviation of the position along the normal [px]
 };

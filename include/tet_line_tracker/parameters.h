@@ -37,7 +37,6 @@ struct LineRefinerParameters {
   bool refine{true};        ///< otherwise lines stay where the flow puts them
   double search_px{3.0};    ///< the edge is looked for this far on both sides, 1..6 [px]
   double min_support{0.5};  ///< share of the samples along the line that must lie on the edge, 0..1
-  bool fit_ends{false};     ///< ends are cut where the edge ends and follow it where it goes on
 };
 
 /// Beyond what a line may not change from image to image.

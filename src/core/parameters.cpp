@@ -39,8 +39,6 @@ ParameterTable tableOf(LineTrackerParameters& p) {
   table.add("search_px", p.refiner.search_px, 1.0, 6.0, "px",
             "The edge is looked for this far on both sides");
   table.add("min_support", p.refiner.min_support, 0.0, 1.0, "", "Share of a line that must lie on its edge");
-  table.add("fit_ends", p.refiner.fit_ends,
-            "Cut ends where the edge ends, let them follow it where it goes on");
   table.add("detector", p.detection.detector, {"auto", "edge", "lsd", "fld"},
             "Line detector; `auto`: the best one that works with the OpenCV at hand");
   table.add("min_length", p.detection.min_length, 5.0, 1000.0, "px",

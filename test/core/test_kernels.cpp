@@ -109,6 +109,18 @@ TEST(Kernels, ATemplateThatIsProjectedIsBlindToGainAndOffset) {
   EXPECT_NEAR(sums.i_gray / made.patch.gray_gray, 0.5F, 5e-3F);
 }
 
+TEST(Kernels, SupportCountsSamplesNearTheFitThatAreSteep) {
+  //                          on it   far    flat   on it  beyond the count
+  const float places[kLanes] = {-1.0F, -0.5F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 0.0F};
+  const float offsets[kLanes] = {0.5F, 3.0F, 1.0F, 1.75F, 1.0F, 1.0F, 1.0F, 1.0F};
+  const float slopes[kLanes] = {6.0F, 9.0F, 1.0F, 10.0F, 9.0F, 9.0F, 9.0F, 9.0F};
+  float sums[3];
+  active().sumSupport({places, offsets, slopes, 4}, {1.0F, 0.5F}, 1.0F, 2.0F, sums);
+  EXPECT_EQ(sums[0], 2.0F);
+  EXPECT_EQ(sums[1], 16.0F);
+  EXPECT_EQ(sums[2], 0.0625F);
+}
+
 TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
   int count = 0;
   const KernelTable* const* tables = available(&count);
@@ -154,6 +166,9 @@ TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
       tables[0]->sumOffsets(samples, {5.0F, 0.2F}, 9.0F, 1.0F, sums_a);
       tables[t]->sumOffsets(samples, {5.0F, 0.2F}, 9.0F, 1.0F, sums_b);
       EXPECT_EQ(std::memcmp(sums_a, sums_b, sizeof sums_a), 0) << count;
+      tables[0]->sumSupport(samples, {5.0F, 0.2F}, 9.0F, 1.0F, sums_a);
+      tables[t]->sumSupport(samples, {5.0F, 0.2F}, 9.0F, 1.0F, sums_b);
+      EXPECT_EQ(std::memcmp(sums_a, sums_b, 3 * sizeof(float)), 0) << count;
     }
     for (int width = 16; width <= kWidth; ++width) {
       std::vector<std::uint16_t> row(static_cast<std::size_t>(width) + kRowPadding);

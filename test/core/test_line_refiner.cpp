@@ -35,16 +35,10 @@ LineSegment along(float angle, float length, const Eigen::Vector2f& middle) {
   return {middle - half, middle + half};
 }
 
-LineRefinerParameters withEnds(bool fit_ends) {
-  LineRefinerParameters parameters;
-  parameters.fit_ends = fit_ends;
-  return parameters;
-}
-
 const Eigen::Vector2f kMiddle(119.3F, 99.6F);
 
 TEST(LineRefiner, PutsALineOnTheEdgeAtAnyAngleToWithinATenthOfAPixel) {
-  const LineRefiner refiner(withEnds(false));
+  const LineRefiner refiner(LineRefinerParameters{});
   for (int degrees = 0; degrees < 360; degrees += 15) {
     const float angle = static_cast<float>(degrees) * static_cast<float>(M_PI) / 180.0F;
     const cv::Mat image = edgeImage(angle, 60.0F, 1.0F, kMiddle);
@@ -64,7 +58,7 @@ TEST(LineRefiner, PutsALineOnTheEdgeAtAnyAngleToWithinATenthOfAPixel) {
 }
 
 TEST(LineRefiner, FindsASharpEdgeToATwentiethOfAPixelWhereverItLiesBetweenPixels) {
-  const LineRefiner refiner(withEnds(false));
+  const LineRefiner refiner(LineRefinerParameters{});
   for (int tenths = 0; tenths < 10; ++tenths) {
     const Eigen::Vector2f middle(120.0F, 100.0F + 0.1F * static_cast<float>(tenths));
     const cv::Mat image = edgeImage(0.0F, 60.0F, 0.0F, middle, kSharp);
@@ -74,7 +68,7 @@ TEST(LineRefiner, FindsASharpEdgeToATwentiethOfAPixelWhereverItLiesBetweenPixels
 }
 
 TEST(LineRefiner, TheEdgesOfAStripeOfTwoPixelsMoveApartByLessThanASeventhOfAPixel) {
-  const LineRefiner refiner(withEnds(false));
+  const LineRefiner refiner(LineRefinerParameters{});
   for (const float angle : {0.1F, 0.4F, 1.2F, 2.5F}) {
     const Eigen::Vector2f left(std::sin(angle), -std::cos(angle));
     const cv::Mat brighter = edgeImage(angle, 60.0F, 0.0F, kMiddle - left, kSharp);
@@ -89,7 +83,7 @@ TEST(LineRefiner, TheEdgesOfAStripeOfTwoPixelsMoveApartByLessThanASeventhOfAPixe
 }
 
 TEST(LineRefiner, FindsAWeakEdgeInLowLight) {
-  const LineRefiner refiner(withEnds(false));
+  const LineRefiner refiner(LineRefinerParameters{});
   const cv::Mat image = edgeImage(0.4F, 10.0F, 1.0F, kMiddle);
   const LineSegment truth = along(0.4F, 80.0F, kMiddle);
   LineSegment guess = truth;
@@ -100,7 +94,7 @@ TEST(LineRefiner, FindsAWeakEdgeInLowLight) {
 }
 
 TEST(LineRefiner, AnEdgeOfTheOtherPolarityIsNoSupport) {
-  const LineRefiner refiner(withEnds(false));
+  const LineRefiner refiner(LineRefinerParameters{});
   const cv::Mat image = edgeImage(0.4F, 60.0F, 1.0F, kMiddle);
   const LineSegment truth = along(0.4F, 80.0F, kMiddle);
   const float contrast = refiner.contrastOf(image, truth);
@@ -110,22 +104,10 @@ TEST(LineRefiner, AnEdgeOfTheOtherPolarityIsNoSupport) {
 }
 
 TEST(LineRefiner, FlatGrayAndNoiseAreNoSupport) {
-  const LineRefiner refiner(withEnds(false));
+  const LineRefiner refiner(LineRefinerParameters{});
   const LineSegment line = along(0.7F, 80.0F, kMiddle);
   EXPECT_EQ(refiner.fit(edgeImage(0.7F, 0.0F, 0.0F, kMiddle), line, 10.0F).support, 0.0F);
   EXPECT_LT(refiner.fit(edgeImage(0.7F, 0.0F, 4.0F, kMiddle), line, 20.0F).support, 0.5F);
-}
-
-TEST(LineRefiner, EndsStopWhereTheEdgeStopsAndFollowItWhereItGoesOn) {
-  const LineRefiner refiner(withEnds(true));
-  cv::Mat image = edgeImage(0.0F, 60.0F, 0.0F, kMiddle);
-  image(cv::Rect(160, 0, kWidth - 160, kHeight)).setTo(100);  // the edge ends at x = 160
-  const LineSegment truth = along(0.0F, 60.0F, kMiddle);
-  const LineSegment too_long{truth.start, {190.0F, kMiddle.y()}};
-  const EdgeFit cut = refiner.fit(image, too_long, 20.0F);
-  EXPECT_NEAR(cut.segment.end.x(), 160.0F, 3.0F);
-  EXPECT_LT(cut.segment.start.x(), truth.start.x() - 1.0F);  // the edge goes on at this end
-  EXPECT_GE(cut.segment.start.x(), truth.start.x() - 5.0F);
 }
 
 TEST(LineRefiner, ALineOutsideTheImageComesBackWithoutSupport) {

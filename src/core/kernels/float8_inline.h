@@ -11,6 +11,7 @@ namespace kernels {
 namespace {
 
 using Float8 = float __attribute__((vector_size(32)));
+using Float4 = float __attribute__((vector_size(16)));
 using Int8 = std::int32_t __attribute__((vector_size(32)));
 using Mask8 = std::int32_t __attribute__((vector_size(32)));
 using Short16 = std::uint16_t __attribute__((vector_size(32)));
@@ -50,7 +51,11 @@ inline __attribute__((always_inline)) void store(float* values, Float8 vector) {
 
 /// Always in the same order, whatever the instruction set.
 inline __attribute__((always_inline)) float sum(Float8 v) {
-  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+  Float4 halves[2];
+  __builtin_memcpy(halves, &v, sizeof halves);
+  const Float4 fours = halves[0] + halves[1];
+  const Float4 twos = fours + Float4{fours[2], fours[3], 0.0F, 0.0F};
+  return twos[0] + twos[1];
 }
 
 inline __attribute__((always_inline)) Float8 absolute(Float8 v) {

@@ -127,6 +127,11 @@ struct KernelTable {
   void (*sumOffsets)(const EdgeSamples& samples, const OffsetFit& fit, float width, float min_slope,
                      float* sums);
 
+  /// Number of samples nearer than `reach` [px] to `fit` and at least `min_slope` steep, and the sums of
+  /// their slopes and squared distances.
+  void (*sumSupport)(const EdgeSamples& samples, const OffsetFit& fit, float reach, float min_slope,
+                     float* sums);
+
   /// One row of the gradient from the five image rows around it: [1 4 6 4 1] along the edge times
   /// [-1 -2 0 2 1] across it, and the sum of the absolute values of both components, whose bits kFlags are
   /// zero. Writes columns 2 to width - 3. `smooth` and `slope`: scratch of `width` elements.

@@ -263,8 +263,8 @@ float absoluteDifference(const float* patch, const PatchShape& shape, const Patc
 }
 
 constexpr KernelTable makeTable(const char* name) {
-  return {name,      halveRow,   makeTemplate, align,    absoluteDifference,
-          findEdges, sumOffsets, gradientRow,  findPeaks};
+  return {name,      halveRow,   makeTemplate, align,       absoluteDifference,
+          findEdges, sumOffsets, sumSupport,   gradientRow, findPeaks};
 }
 
 }  // namespace

@@ -34,21 +34,28 @@ inline __attribute__((always_inline)) void growSide(const Float8* rises, int cou
 
 void findEdges(const ProfileBatch& batch, float* places, float* slopes_found) {
   const Float8 zero = {0, 0, 0, 0, 0, 0, 0, 0};
-  std::uint8_t pixels[kMaxProfile][kLanes];
-  for (int lane = 0; lane < kLanes; ++lane) {
-    const std::uint8_t* pixel = batch.pixels[lane];
-    for (int k = 0; k < batch.count; ++k) pixels[k][lane] = pixel[k * batch.step];
+  // A word at a time: eight bytes that were stored one by one are slow to load.
+  std::uint64_t words[kMaxProfile];
+  for (int k = 0; k < batch.count; ++k) {
+    std::uint64_t word = 0;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      word |= static_cast<std::uint64_t>(batch.pixels[lane][k * batch.step]) << (8 * lane);
+    }
+    words[k] = word;
   }
+  const auto pixels = [&words](int k) {
+    return loadPixels(reinterpret_cast<const std::uint8_t*>(words + k));
+  };
   Float8 rises[kMaxProfile];  // from each pixel to the next
   const Float8 centre = load(batch.centre);
   Float8 best_score = zero;
   Float8 peak = zero;
   Float8 steepest = zero;  // rise at the peak
   Float8 steepest_place = zero;
-  Float8 here = loadPixels(pixels[1]);
-  rises[0] = (here - loadPixels(pixels[0])) * batch.polarity;
+  Float8 here = pixels(1);
+  rises[0] = (here - pixels(0)) * batch.polarity;
   for (int k = 1; k + 1 < batch.count; ++k) {
-    const Float8 after = loadPixels(pixels[k + 1]);
+    const Float8 after = pixels(k + 1);
     rises[k] = (after - here) * batch.polarity;
     here = after;
     const Float8 slope = 0.5F * (rises[k - 1] + rises[k]);
@@ -98,6 +105,24 @@ void sumOffsets(const EdgeSamples& samples, const OffsetFit& fit, float width, f
   sums[2] = sum(wpp);
   sums[3] = sum(wo);
   sums[4] = sum(wpo);
+}
+
+void sumSupport(const EdgeSamples& samples, const OffsetFit& fit, float reach, float min_slope, float* sums) {
+  const Float8 zero = {0, 0, 0, 0, 0, 0, 0, 0};
+  const Int8 lanes = {0, 1, 2, 3, 4, 5, 6, 7};
+  Float8 count = zero, slopes = zero, squares = zero;
+  for (int i = 0; i < samples.count; i += kLanes) {
+    const Float8 slope = load(samples.slopes + i);
+    const Float8 rest = load(samples.offsets + i) - fit.offset - load(samples.places + i) * fit.turn;
+    const Mask8 counted =
+        (absolute(rest) < zero + reach) & (slope >= zero + min_slope) & (lanes < samples.count - i);
+    count += choose(counted, zero + 1.0F, zero);
+    slopes += choose(counted, slope, zero);
+    squares += choose(counted, rest * rest, zero);
+  }
+  sums[0] = sum(count);
+  sums[1] = sum(slopes);
+  sums[2] = sum(squares);
 }
 
 }  // namespace
