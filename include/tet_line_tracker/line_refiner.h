@@ -23,7 +23,8 @@ class LineRefiner {
  public:
   explicit LineRefiner(const LineRefinerParameters& parameters) : parameters_(parameters) {}
 
-  /// Contrast of the edge under `line` as it lies, of any polarity [gray / px].
+  /// Contrast of the edge under `line` as it lies, whose brighter side is to the left on screen, as detectors
+  /// promise [gray / px]; 0: none. A stronger edge of the other polarity beside it does not count.
   float contrastOf(const cv::Mat& gray, const LineSegment& line) const;
 
   /// Fits `line` to the edge near it whose contrast has the sign and about the size of `contrast` [gray /

@@ -144,17 +144,13 @@ kernels::OffsetFit fitOffsets(const kernels::EdgeSamples& samples, float min_slo
 
 float LineRefiner::contrastOf(const cv::Mat& gray, const LineSegment& line) const {
   constexpr int kCount = 2 * kernels::kLanes;
-  float best = 0.0F;
-  for (const float polarity : {1.0F, -1.0F}) {
-    ProfileSampler sampler(gray, line, polarity, 1.5F);
-    Samples samples;
-    sampler.take(kCount, samples);
-    if (samples.count < kCount / 2) continue;
-    const auto middle = samples.slopes.begin() + samples.count / 2;
-    std::nth_element(samples.slopes.begin(), middle, samples.slopes.begin() + samples.count);
-    if (*middle > std::abs(best)) best = polarity * *middle;
-  }
-  return best;
+  ProfileSampler sampler(gray, line, 1.0F, 1.5F);
+  Samples samples;
+  sampler.take(kCount, samples);
+  if (samples.count < kCount / 2) return 0.0F;
+  const auto middle = samples.slopes.begin() + samples.count / 2;
+  std::nth_element(samples.slopes.begin(), middle, samples.slopes.begin() + samples.count);
+  return *middle;
 }
 
 EdgeFit LineRefiner::fit(const cv::Mat& gray, const LineSegment& line, float contrast) const {

@@ -103,6 +103,15 @@ TEST(LineRefiner, AnEdgeOfTheOtherPolarityIsNoSupport) {
   EXPECT_LT(refiner.fit(image, truth, -contrast).support, 0.3F);
 }
 
+TEST(LineRefiner, AStrongerEdgeOfTheOtherPolarityDoesNotTurnTheContrastOfALine) {
+  const LineRefiner refiner(LineRefinerParameters{});
+  const LineSegment weak = along(0.4F, 80.0F, kMiddle);
+  const Eigen::Vector2f beside = kMiddle - 1.5F * weak.normal();
+  const cv::Mat strong = edgeImage(0.4F, 80.0F, 0.0F, beside, kSharp);
+  const cv::Mat image = edgeImage(0.4F, 30.0F, 0.0F, kMiddle, kSharp) - strong + 100;
+  EXPECT_GT(refiner.contrastOf(image, weak), 5.0F);
+}
+
 TEST(LineRefiner, FlatGrayAndNoiseAreNoSupport) {
   const LineRefiner refiner(LineRefinerParameters{});
   const LineSegment line = along(0.7F, 80.0F, kMiddle);
