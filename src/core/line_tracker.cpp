@@ -9,6 +9,7 @@
 
 #include "field_of_view.h"
 #include "mask.h"
+#include "outlier_limit.h"
 #include "same_edge.h"
 #include "stopwatch.h"
 #include "tet_line_tracker/endpoint_tracker.h"
@@ -35,7 +36,8 @@ enum class ViewCut { kNone, kCut, kLeftOut };
 /// What a line looked like in the last image.
 struct Appearance {
   LineTemplate patches;
-  float contrast{0.0F};  ///< across the edge [gray / px]
+  float contrast{0.0F};     ///< across the edge [gray / px]
+  float edge_offset{0.0F};  ///< of the edge from where the flow put the line [px]
   /// Movement of both ends beyond what the rotation of the camera explains, from the image before [px]:
   /// parallax, which goes on as it was.
   Eigen::Vector2f start_parallax{Eigen::Vector2f::Zero()};
@@ -98,6 +100,7 @@ class LineTracker::Implementation {
   /// Why the line cannot go on, or kCount.
   /// Touches nothing but the line and its appearance: lines are followed side by side.
   LossReason follow(const MotionPrediction& prediction, TrackedLine& line, Appearance& appearance) const;
+  void loseStrays();
   static void keepParallax(const LineSegment& turned, const LineSegment& found, Appearance& appearance);
   bool isPlausible(const LineSegment& expected, const LineSegment& found) const;
   /// Cuts `segment` to what can be normalised; left out, it stays as it is.
@@ -129,6 +132,7 @@ class LineTracker::Implementation {
   /// Of frame_.lines, in their order; more may wait at the end for reuse.
   std::vector<Appearance> appearances_;
   std::vector<LossReason> reasons_;  ///< of the lines of the image before
+  std::vector<float> edge_offsets_;
   WorkerPool workers_;
   std::size_t lines_after_detection_{0};
   float coverage_after_detection_{0.0F};
@@ -217,6 +221,7 @@ void LineTracker::Implementation::trackLines(const MotionPrediction& prediction)
   reasons_.resize(frame_.lines.size());
   workers_.run(frame_.lines.size(),
                [&](std::size_t i) { reasons_[i] = follow(prediction, frame_.lines[i], appearances_[i]); });
+  if (in_force_.refiner.refine) loseStrays();
   std::size_t kept = 0;
   for (std::size_t i = 0; i < frame_.lines.size(); ++i) {
     const LossReason reason = reasons_[i];
@@ -264,6 +269,7 @@ LossReason LineTracker::Implementation::follow(const MotionPrediction& predictio
   if (in_force_.refiner.refine) {
     const EdgeFit fit = refiner_.fit(pyramid_.level(0), line.segment, appearance.contrast);
     if (fit.support < in_force_.refiner.min_support) return LossReason::kSupport;
+    appearance.edge_offset = std::abs(fit.segment.distance(line.segment.middle()));
     line.segment = fit.segment;
     line.sigma_px = fit.sigma_px;
     appearance.contrast = fit.contrast;
@@ -281,6 +287,20 @@ LossReason LineTracker::Implementation::follow(const MotionPrediction& predictio
   if (!mask_in_force_.empty() && !mostlyInMask(line.segment, mask_in_force_)) return LossReason::kMask;
   if (!paper && in_force_.motion.keep_parallax) keepParallax(turned, line.segment, appearance);
   return LossReason::kCount;
+}
+
+/// Lines that jumped to another edge near theirs: flow and edge disagree more than on the other lines.
+void LineTracker::Implementation::loseStrays() {
+  edge_offsets_.clear();
+  for (std::size_t i = 0; i < reasons_.size(); ++i) {
+    if (reasons_[i] == LossReason::kCount) edge_offsets_.push_back(appearances_[i].edge_offset);
+  }
+  const float limit = outlierLimit(edge_offsets_, static_cast<float>(in_force_.plausibility.max_edge_offset));
+  for (std::size_t i = 0; i < reasons_.size(); ++i) {
+    if (reasons_[i] == LossReason::kCount && appearances_[i].edge_offset > limit) {
+      reasons_[i] = LossReason::kGeometry;
+    }
+  }
 }
 
 void LineTracker::Implementation::keepParallax(const LineSegment& turned, const LineSegment& found,

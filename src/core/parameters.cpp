@@ -35,6 +35,9 @@ ParameterTable tableOf(LineTrackerParameters& p) {
             "A line that turns more than expected is lost");
   table.add("max_stretch", p.plausibility.max_stretch, 1.01, 10.0, "",
             "A line whose length changes by more than this factor is lost");
+  table.add("max_edge_offset", p.plausibility.max_edge_offset, 0.1, 10.0, "px",
+            "A line is lost whose edge is this much farther than is usual in the image from where the flow "
+            "puts it");
   table.add("refine", p.refiner.refine, "Re-fit each line to the edge under it");
   table.add("search_px", p.refiner.search_px, 1.0, 6.0, "px",
             "The edge is looked for this far on both sides");
