@@ -6,14 +6,6 @@
 namespace tet_line_tracker {
 namespace {
 
-geometry_msgs::Point toPoint(const Eigen::Vector3d& p) {
-  geometry_msgs::Point point;
-  point.x = p.x();
-  point.y = p.y();
-  point.z = p.z();
-  return point;
-}
-
 std_msgs::ColorRGBA colour(float r, float g, float b) {
   std_msgs::ColorRGBA rgba;
   rgba.r = r;
@@ -24,6 +16,14 @@ std_msgs::ColorRGBA colour(float r, float g, float b) {
 }
 
 }  // namespace
+
+geometry_msgs::Point toPoint(const Eigen::Vector3d& p) {
+  geometry_msgs::Point point;
+  point.x = p.x();
+  point.y = p.y();
+  point.z = p.z();
+  return point;
+}
 
 Line3DArray toLine3DArray(const std::vector<MappedLine>& lines, const std_msgs::Header& header) {
   Line3DArray map;

@@ -12,6 +12,8 @@
 
 namespace tet_line_tracker {
 
+geometry_msgs::Point toPoint(const Eigen::Vector3d& p);
+
 /// The map as published. `header`: newest image in the map, frame of the poses.
 Line3DArray toLine3DArray(const std::vector<MappedLine>& lines, const std_msgs::Header& header);
 

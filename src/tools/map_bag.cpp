@@ -1,10 +1,13 @@
 // Makes a map of lines in space from the lines and poses of a bag.
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <vector>
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <std_msgs/String.h>
 #include <tf2/buffer_core.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -40,6 +43,24 @@ void readTransforms(const rosbag::Bag& bag, tf2::BufferCore* transforms) {
   }
 }
 
+/// The true edges of a simulated world, thin and gray, to look at below the map.
+visualization_msgs::Marker trueEdges(const SceneGeometry& scene) {
+  visualization_msgs::Marker marker;
+  marker.header.frame_id = sequence_bag::kWorldFrame;
+  marker.ns = "true_edges";
+  marker.type = visualization_msgs::Marker::LINE_LIST;
+  marker.action = visualization_msgs::Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  marker.scale.x = 0.006;  // width [m]
+  marker.color.r = marker.color.g = marker.color.b = 0.45F;
+  marker.color.a = 1.0F;
+  for (const TrueEdge& edge : scene.edges()) {
+    marker.points.push_back(toPoint(edge.start));
+    marker.points.push_back(toPoint(edge.end));
+  }
+  return marker;
+}
+
 /// The truth and the transforms travel along, so that one bag is enough to look at the map and to judge it.
 void copyContext(const rosbag::Bag& input, BagWriter* output) {
   rosbag::View view(
@@ -47,7 +68,32 @@ void copyContext(const rosbag::Bag& input, BagWriter* output) {
                                                          sequence_bag::kPoseTopic, kSceneTopic}));
   for (const rosbag::MessageInstance& instance : view) {
     output->write(instance.getTopic(), instance.getTime(), instance);
+    if (instance.getTopic() != kSceneTopic) continue;
+    if (const auto scene = instance.instantiate<std_msgs::String>()) {
+      output->write(sequence_bag::kTrueEdgesTopic, instance.getTime(),
+                    trueEdges(SceneGeometry::fromText(scene->data)));
+    }
   }
+}
+
+/// One line on how well the lines of a map are known: median and 90 %.
+void printQuality(const std::vector<MappedLine>& lines) {
+  if (lines.empty()) return;
+  const auto quantiles = [&lines](const char* name, const auto& value_of, const char* unit) {
+    std::vector<double> values;
+    values.reserve(lines.size());
+    for (const MappedLine& line : lines) values.push_back(value_of(line));
+    std::sort(values.begin(), values.end());
+    std::printf("%s %.2f / %.2f%s", name, values[values.size() / 2], values[values.size() * 9 / 10], unit);
+  };
+  constexpr double kDegrees = 57.29577951308232;
+  std::printf("median / 90 %%: ");
+  quantiles(
+      "reprojection error", [](const MappedLine& line) { return line.reprojection_px; }, " px, ");
+  quantiles(
+      "parallax", [](const MappedLine& line) { return kDegrees * line.parallax; }, " deg, ");
+  quantiles(
+      "distance", [](const MappedLine& line) { return line.distance; }, " m\n");
 }
 
 void mapBag(const Arguments& arguments, const LineMapperParameters& parameters) {
@@ -100,6 +146,7 @@ void mapBag(const Arguments& arguments, const LineMapperParameters& parameters) 
   const LineMapper::Rejected& rejected = mapper.rejected();
   std::printf("%zu images, %zu of them without a pose, %zu lines in the map\n", images, without_pose,
               mapper.finishedLines());
+  printQuality(mapper.lines());
   if (without_pose > 0) std::printf("first image without a pose: %s\n", problem.c_str());
   std::printf(
       "tracks not in the map: %lu with too few views, %lu without parallax, %lu off their images, %lu not "

@@ -24,6 +24,7 @@ constexpr char kStaticTfTopic[] = "/tf_static";
 constexpr char kLinesTopic[] = "/line_tracker/lines";
 constexpr char kMapTopic[] = "/line_mapper/lines";
 constexpr char kMapMarkerTopic[] = "/line_mapper/markers";
+constexpr char kTrueEdgesTopic[] = "/ground_truth/edges";
 constexpr char kWorldFrame[] = "world";
 constexpr char kCameraFrame[] = "cam0";
 constexpr char kImuFrame[] = "imu0";

@@ -5,6 +5,7 @@
 #include <rosbag/view.h>
 #include <std_msgs/String.h>
 #include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/Marker.h>
 
 #include "../../src/simulation/scene_geometry.h"
 #include "tet_line_tracker/Line3DArray.h"
@@ -69,6 +70,8 @@ TEST_F(MapBag, WritesAMapThatEvaluateMapFindsExact) {
   ASSERT_EQ(run.status, 0) << run.errors;
   EXPECT_NE(run.output.find("40 images, 0 of them without a pose, 2 lines in the map"), std::string::npos)
       << run.output;
+  EXPECT_NE(run.output.find("median / 90 %: reprojection error 0.00 / 0.00 px, parallax"), std::string::npos)
+      << run.output;
 
   rosbag::Bag bag(output_, rosbag::bagmode::Read);
   rosbag::View view(bag, rosbag::TopicQuery("/line_mapper/lines"));
@@ -81,6 +84,12 @@ TEST_F(MapBag, WritesAMapThatEvaluateMapFindsExact) {
   EXPECT_NEAR(last->lines[1].start.x, 0.8, 1e-6);
   EXPECT_NEAR(last->lines[1].end.y, 0.5, 1e-6);
   EXPECT_NE(last->lines[0].finished, 0);
+  rosbag::View edges(bag, rosbag::TopicQuery("/ground_truth/edges"));
+  ASSERT_EQ(edges.size(), 1U);
+  const auto truth = edges.begin()->instantiate<visualization_msgs::Marker>();
+  ASSERT_EQ(truth->points.size(), 4U);
+  EXPECT_EQ(truth->points[3].x, 0.8);
+  EXPECT_EQ(truth->points[3].y, 1.0);
   bag.close();
 
   const ToolRun judged = runTool("evaluate_map", {output_});
