@@ -151,6 +151,8 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
   std::uint32_t sequence = 0;
   std::size_t lines = 0;
   std::size_t tracks = 0;
+  std::size_t cut = 0;
+  std::size_t left_out = 0;
   ProgressBar progress(images.size());
   for (const auto& [stamp, instance] : images) {
     throwIfInterrupted();
@@ -168,6 +170,8 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
     ++sequence;
     lines += frame->lines.size();
     tracks += frame->statistics.lines_added;
+    cut += frame->statistics.lines_cut;
+    left_out += frame->statistics.lines_left_out;
     times.add(frame->statistics);
   }
   if (sequence == 0)
@@ -176,6 +180,7 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
   std::printf("%u images, %.1f lines per image, %zu tracks of %.1f images on average\n", sequence,
               static_cast<double>(lines) / sequence, tracks,
               tracks == 0 ? 0.0 : static_cast<double>(lines) / static_cast<double>(tracks));
+  if (cut + left_out > 0) std::printf("field of view: %zu lines cut, %zu left out\n", cut, left_out);
   times.print();
 }
 
