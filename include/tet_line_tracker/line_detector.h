@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@ struct DetectionHints {
   cv::Mat mask;  ///< 8-bit, size of the image: lines only where it is not zero; empty: everywhere
   std::vector<LineSegment>
       tracked;  ///< lines that need not be found again; a detector may do so nevertheless
+  std::size_t enough{std::numeric_limits<std::size_t>::max()};  ///< a detector may stop at so many lines
 };
 
 /// Finds straight segments in one gray image. Not thread-safe: buffers are kept from call to call.

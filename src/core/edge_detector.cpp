@@ -33,6 +33,8 @@ constexpr int kMinGap = 2;             // [px]
 constexpr int kMaxGap = 8;             // [px]
 constexpr int kHitsPerGapPixel = 8;    // a line must be long to jump far
 
+constexpr std::size_t kTurns = 8;  // through the anchors
+
 // Marks in the gradient magnitude.
 constexpr std::int16_t kTaken = 1;  // a line lies here
 constexpr std::int16_t kTried = 2;  // an anchor here leads to nothing new
@@ -268,7 +270,13 @@ void EdgeDetector::find(const cv::Mat& gray, float min_length, const DetectionHi
   ridge_threshold_ = static_cast<std::int16_t>(kRidgeShare * static_cast<float>(anchor_threshold_));
   for (const LineSegment& line : hints.tracked) markTracked(line);
   collectAnchors(min_length, hints.mask);
-  for (const Anchor& anchor : anchors_) drawLine(anchor, min_length, lines);
+  // Spread over the image and over the lines in every turn: long lines, which have many anchors, come early.
+  for (std::size_t turn = 0; turn < kTurns; ++turn) {
+    for (std::size_t i = turn; i < anchors_.size(); i += kTurns) {
+      if (lines.size() >= hints.enough) return;
+      drawLine(anchors_[i], min_length, lines);
+    }
+  }
 }
 
 }  // namespace tet_line_tracker

@@ -371,13 +371,15 @@ void LineTracker::Implementation::addLines(const cv::Mat& gray) {
   hints_.mask = mask_in_force_;
   hints_.tracked.clear();
   for (const TrackedLine& line : frame_.lines) hints_.tracked.push_back(line.segment);
+  // A choice of lines is wanted, as some are no good, but the whole of a rich image takes time.
+  const std::size_t max_lines = static_cast<std::size_t>(in_force_.detection.max_lines);
+  const std::size_t tracked = frame_.lines.size();
+  hints_.enough = 2 * (max_lines - std::min(max_lines, tracked)) + 20;
   detector_->detect(gray, static_cast<float>(in_force_.detection.min_length), candidates_, hints_);
   frame_.detected = true;
   frame_.statistics.lines_detected = static_cast<std::uint32_t>(candidates_.size());
 
   // Longest first, until there is no more room. The cheap test before the fit, and again after it.
-  const std::size_t max_lines = static_cast<std::size_t>(in_force_.detection.max_lines);
-  const std::size_t tracked = frame_.lines.size();
   for (const LineSegment& candidate : candidates_) {
     if (frame_.lines.size() >= max_lines) break;
     if (onSameEdge(candidate, hints_.tracked, kNewLineLimits)) continue;
