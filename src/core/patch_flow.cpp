@@ -10,8 +10,11 @@ namespace {
 constexpr float kMinGain = 0.2F;
 constexpr float kMaxGain = 5.0F;
 
-/// Spread of gray differences that any picture has [gray].
-constexpr float kGrayNoise = 2.0F;
+/// Mean squared gray difference that any picture has [gray^2].
+constexpr float kGrayNoise = 4.0F;
+
+/// At this multiple of the median a match has a quarter of the weight.
+constexpr float kUsual = 2.25F;
 
 }  // namespace
 
@@ -36,22 +39,21 @@ PatchMatch matchOf(const Patch& patch, const kernels::AlignmentSums& sums, float
     match.slope = Eigen::Vector2f(sums.i_x - reference.gray_x, sums.i_y - reference.gray_y);
     squares = sums.i_i - 2.0F * sums.i_gray + reference.gray_gray;
   }
-  match.spread = std::sqrt(std::max(0.0F, squares) / pixels);
+  match.square = std::max(0.0F, squares) / pixels;
   return match;
 }
 
 void weigh(PatchMatch* matches, std::size_t count) {
   // Sorted by insertion: there are few.
-  std::array<float, kMaxPatches> spreads;
+  std::array<float, kMaxPatches> squares;
   for (std::size_t i = 0; i < count; ++i) {
     std::size_t k = i;
-    for (; k > 0 && spreads[k - 1] > matches[i].spread; --k) spreads[k] = spreads[k - 1];
-    spreads[k] = matches[i].spread;
+    for (; k > 0 && squares[k - 1] > matches[i].square; --k) squares[k] = squares[k - 1];
+    squares[k] = matches[i].square;
   }
-  const float per_scale = 1.0F / (1.5F * std::max(spreads[count / 2], kGrayNoise));
+  const float per_usual = 1.0F / (kUsual * std::max(squares[count / 2], kGrayNoise));
   for (std::size_t i = 0; i < count; ++i) {
-    const float ratio = matches[i].spread * per_scale;
-    const float root = 1.0F + ratio * ratio;
+    const float root = 1.0F + matches[i].square * per_usual;
     matches[i].weight = 1.0F / (root * root);
   }
 }

@@ -31,7 +31,7 @@ struct PatchMatch {
   const Patch* patch{nullptr};
   Eigen::Vector2f slope{Eigen::Vector2f::Zero()};  ///< gradient of half the squared difference [gray^2 / px]
   float gain{1.0F}, offset{0.0F};  ///< of the second image over the template, which has no mean
-  float spread{0.0F};              ///< root mean square difference [gray]
+  float square{0.0F};              ///< mean squared difference [gray^2]
   float weight{1.0F};
 };
 

@@ -15,7 +15,7 @@ constexpr std::size_t kMaxPoints = 600;
 constexpr std::size_t kMinPoints = 40;
 constexpr std::size_t kMinSteepness = 2;  // gray difference over two pixels that is more than noise
 constexpr float kOutlier = 20.0F;         // gray difference from which a point counts no more
-constexpr float kMinStep = 2e-5F;         // [rad]
+constexpr float kMinStep = 2.5e-5F;       // the iterations end below this step on level 0 [rad]
 
 /// Gray value between pixels; beyond the border the outermost pixel is repeated.
 float interpolate(const cv::Mat& image, float x, float y) {
@@ -147,14 +147,14 @@ RotationAligner::Light RotationAligner::read(const cv::Mat& second, const Eigen:
   }
   const float count = static_cast<float>(points_.size());
   const float gain = std::clamp(with_gray / (count * gray_square_ + 1.0F), 0.3F, 3.0F);
-  return {gain, sum / count};
+  return {1.0F / gain, sum / count};
 }
 
 float RotationAligner::cost(const ImagePyramid& second, const Eigen::Vector3f& turn) {
   const Light light = read(second.level(level_), turn);
   float sum = 0.0F;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const float difference = (values_[i] - light.offset) / light.gain - points_[i].gray;
+    const float difference = (values_[i] - light.offset) * light.shrink - points_[i].gray;
     sum += std::min(kOutlier, std::abs(difference));
   }
   return sum / static_cast<float>(points_.size());
@@ -167,12 +167,12 @@ Eigen::Vector3f RotationAligner::align(const ImagePyramid& second, const Eigen::
     const Light light = read(second.level(level_), turn);
     Eigen::Vector3f slope = Eigen::Vector3f::Zero();
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      const float difference = (values_[i] - light.offset) / light.gain - points_[i].gray;
+      const float difference = (values_[i] - light.offset) * light.shrink - points_[i].gray;
       slope += points_[i].slope * std::clamp(difference, -kOutlier, kOutlier);
     }
     const Eigen::Vector3f step = -(normal_inverse_ * slope);
     turn += step;
-    if (step.norm() < kMinStep) break;
+    if (step.norm() * ImagePyramid::scale(level_) < kMinStep) break;
   }
   return turn;
 }

@@ -44,7 +44,7 @@ class RotationAligner {
     float gray;             ///< less the mean of all points
   };
   struct Light {
-    float gain, offset;
+    float shrink, offset;  ///< first = shrink * (second - offset)
   };
 
   /// Gray values of `second` at the points moved by `turn`, and what light has changed.
