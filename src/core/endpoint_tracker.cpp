@@ -22,6 +22,9 @@ constexpr float kMinDeterminant = 1e-4F;
 constexpr float kCoarseStep = 0.2F;
 constexpr float kFineStep = 0.1F;
 
+/// An endpoint that moves alone: the last step on a coarse level, in last steps of the finest one.
+constexpr float kCoarseSteps = 10.0F;
+
 /// On one pyramid level, in windows: beyond it nothing in the gradients speaks of the place.
 constexpr float kMaxMovement = 1.0F;
 
@@ -86,30 +89,30 @@ class LevelFlow {
     // The paper: both endpoints must satisfy the termination condition.
     float start_residual = 0.0F;
     float end_residual = 0.0F;
-    const Status start = followAlone(row_.patches.front(), segment.start, start_residual);
+    const float last_step = (finest ? 1.0F : kCoarseSteps) * parameters_.min_step;
+    const Status start = followAlone(row_.patches.front(), last_step, segment.start, start_residual);
     if (start != Status::kTracked && start != Status::kHighResidual) return start;
-    const Status end = followAlone(row_.patches[row_.count - 1], segment.end, end_residual);
+    const Status end = followAlone(row_.patches[row_.count - 1], last_step, segment.end, end_residual);
     residual = std::max(start_residual, end_residual);
     return end == Status::kTracked ? start : end;
   }
 
  private:
   /// One endpoint by its own patch.
-  Status followAlone(const Patch& patch, Eigen::Vector2f& point, float& residual) {
+  Status followAlone(const Patch& patch, float last_step, Eigen::Vector2f& point, float& residual) {
     const kernels::PatchTemplate& reference = patch.reference;
-    if (Symmetric{reference.xx, reference.xy, reference.yy}.determinant() <=
-        kMinDeterminant * pixels_ * pixels_) {
-      return Status::kNoSolution;
-    }
+    const Symmetric gradients{reference.xx, reference.xy, reference.yy};
+    if (gradients.determinant() <= kMinDeterminant * pixels_ * pixels_) return Status::kNoSolution;
+    const Symmetric inverse = gradients.inverse();
     const Eigen::Vector2f expected = point;
     for (int iteration = 0;; ++iteration) {
       if (!bounds_.contains(point)) return Status::kOutside;
       const PatchMatch match = matchAt(point, patch, 0);
       residual = differenceOf(match, 0) / kGrayRange;
-      const Eigen::Vector2f step = stepOf(match);
+      const Eigen::Vector2f step = -(inverse * match.slope);
       // The paper ends on a small residual alone, which smooth texture reaches long before the sub-pixel
       // position. Without a step to take the residual stays as it is.
-      if (step.norm() < parameters_.min_step || iteration == parameters_.max_iterations) {
+      if (step.norm() < last_step || iteration == parameters_.max_iterations) {
         return residual < parameters_.max_residual ? Status::kTracked : Status::kHighResidual;
       }
       point += step;
@@ -155,6 +158,7 @@ class LevelFlow {
 
   /// Mean absolute difference of the gray values, gain and offset matched if so asked [gray].
   float differenceOf(const PatchMatch& match, std::size_t slot) {
+    if (!parameters_.gain_and_offset) return match.absolute;
     return kernels::active().absoluteDifference(grayOf(slot), shape_, match.patch->reference, match.gain,
                                                 match.offset) /
            (pixels_ * match.gain);

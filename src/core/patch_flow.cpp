@@ -6,10 +6,6 @@
 namespace tet_line_tracker {
 namespace {
 
-/// A patch whose gain leaves this range shows something else.
-constexpr float kMinGain = 0.2F;
-constexpr float kMaxGain = 5.0F;
-
 /// Mean squared gray difference that any picture has [gray^2].
 constexpr float kGrayNoise = 4.0F;
 
@@ -17,31 +13,6 @@ constexpr float kGrayNoise = 4.0F;
 constexpr float kUsual = 2.25F;
 
 }  // namespace
-
-PatchMatch matchOf(const Patch& patch, const kernels::AlignmentSums& sums, float pixels,
-                   bool gain_and_offset) {
-  const kernels::PatchTemplate& reference = patch.reference;
-  PatchMatch match;
-  match.patch = &patch;
-  float squares = 0.0F;
-  if (gain_and_offset) {
-    // A template without contrast fits any gain.
-    if (reference.gray_gray > 0.0F) {
-      match.gain = std::clamp(sums.i_gray / reference.gray_gray, kMinGain, kMaxGain);
-    }
-    match.offset = sums.i / pixels;
-    // The projected gradients do not see gain and offset: the gray value itself serves as the difference.
-    const float shrink = 1.0F / match.gain;
-    match.slope = Eigen::Vector2f(sums.i_x, sums.i_y) * shrink;
-    squares =
-        ((sums.i_i - sums.i * match.offset) * shrink - 2.0F * sums.i_gray) * shrink + reference.gray_gray;
-  } else {
-    match.slope = Eigen::Vector2f(sums.i_x - reference.gray_x, sums.i_y - reference.gray_y);
-    squares = sums.i_i - 2.0F * sums.i_gray + reference.gray_gray;
-  }
-  match.square = std::max(0.0F, squares) / pixels;
-  return match;
-}
 
 void weigh(PatchMatch* matches, std::size_t count) {
   // Sorted by insertion: there are few.
@@ -56,11 +27,6 @@ void weigh(PatchMatch* matches, std::size_t count) {
     const float root = 1.0F + matches[i].square * per_usual;
     matches[i].weight = 1.0F / (root * root);
   }
-}
-
-Eigen::Vector2f stepOf(const PatchMatch& match) {
-  const kernels::PatchTemplate& reference = match.patch->reference;
-  return -(Symmetric{reference.xx, reference.xy, reference.yy}.inverse() * match.slope);
 }
 
 void JointEquations::add(const PatchMatch& match) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
@@ -13,6 +14,10 @@
 namespace tet_line_tracker {
 
 constexpr std::size_t kMaxPatches = 16;
+
+/// A patch whose gain leaves this range shows something else.
+constexpr float kMinGain = 0.2F;
+constexpr float kMaxGain = 5.0F;
 
 /// A patch at `fraction` of the way from start to end: it moves by (1 - fraction) m1 + fraction m2.
 struct Patch {
@@ -32,13 +37,37 @@ struct PatchMatch {
   Eigen::Vector2f slope{Eigen::Vector2f::Zero()};  ///< gradient of half the squared difference [gray^2 / px]
   float gain{1.0F}, offset{0.0F};  ///< of the second image over the template, which has no mean
   float square{0.0F};              ///< mean squared difference [gray^2]
+  float absolute{0.0F};            ///< mean absolute difference, when gain and offset are not matched [gray]
   float weight{1.0F};
 };
 
 /// Match of a patch of `pixels` whose sums are known. `gain_and_offset`: both are matched, within the limits
 /// of what light does; the template was projected.
-PatchMatch matchOf(const Patch& patch, const kernels::AlignmentSums& sums, float pixels,
-                   bool gain_and_offset);
+inline PatchMatch matchOf(const Patch& patch, const kernels::AlignmentSums& sums, float pixels,
+                          bool gain_and_offset) {
+  const kernels::PatchTemplate& reference = patch.reference;
+  PatchMatch match;
+  match.patch = &patch;
+  float squares = 0.0F;
+  if (gain_and_offset) {
+    // A template without contrast fits any gain.
+    if (reference.gray_gray > 0.0F) {
+      match.gain = std::clamp(sums.i_gray / reference.gray_gray, kMinGain, kMaxGain);
+    }
+    match.offset = sums.i / pixels;
+    // The projected gradients do not see gain and offset: the gray value itself serves as the difference.
+    const float shrink = 1.0F / match.gain;
+    match.slope = Eigen::Vector2f(sums.i_x, sums.i_y) * shrink;
+    squares =
+        ((sums.i_i - sums.i * match.offset) * shrink - 2.0F * sums.i_gray) * shrink + reference.gray_gray;
+  } else {
+    match.slope = Eigen::Vector2f(sums.i_x - reference.gray_x, sums.i_y - reference.gray_y);
+    squares = sums.i_i - 2.0F * sums.i_gray + reference.gray_gray;
+    match.absolute = sums.absolute / pixels;
+  }
+  match.square = std::max(0.0F, squares) / pixels;
+  return match;
+}
 
 /// Less weight for matches that are worse than the others: covered patches, moved background. At most
 /// kMaxPatches of them.
@@ -57,9 +86,6 @@ struct Symmetric {
     return {xx * v.x() + xy * v.y(), xy * v.x() + yy * v.y()};
   }
 };
-
-/// Step of a patch that moves alone [px]; not finite when its gradients are singular.
-Eigen::Vector2f stepOf(const PatchMatch& match);
 
 /// The 4x4 system of both movement vectors.
 class JointEquations {

@@ -64,6 +64,7 @@ struct AlignmentSums {
   float i_i;       ///< of i^2
   float i_gray;    ///< of i * gray
   float i_x, i_y;  ///< of i * gradient
+  float absolute;  ///< of |i - gray|: neither gain nor offset matched
 };
 
 /// Pixels of the longest profile across a line.

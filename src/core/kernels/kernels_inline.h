@@ -217,7 +217,7 @@ void alignOf(const PatchPlace& place, const PatchShape& shape, const PatchTempla
   const Float8 zero = {0, 0, 0, 0, 0, 0, 0, 0};
   Float8 inside[kVectors];
   for (int v = 0; v < kVectors; ++v) inside[v] = insideColumns(v, shape.side);
-  Float8 s_i = zero, s_ii = zero, s_ig = zero, s_ix = zero, s_iy = zero;
+  Float8 s_i = zero, s_ii = zero, s_ig = zero, s_ix = zero, s_iy = zero, s_abs = zero;
   Float8 upper[kVectors], lower[kVectors];
   readRow<kVectors>(place.data, place.fraction_x, upper);
   for (int y = 0; y < shape.side; ++y) {
@@ -229,12 +229,14 @@ void alignOf(const PatchPlace& place, const PatchShape& shape, const PatchTempla
       store(patch + k, i);
       s_i += i;
       s_ii += i * i;
-      s_ig += i * load(reference.gray + k);
+      const Float8 gray = load(reference.gray + k);
+      s_ig += i * gray;
+      s_abs += absolute(i - gray);
       s_ix += i * load(reference.gradient_x + k);
       s_iy += i * load(reference.gradient_y + k);
     }
   }
-  *sums = {sum(s_i), sum(s_ii), sum(s_ig), sum(s_ix), sum(s_iy)};
+  *sums = {sum(s_i), sum(s_ii), sum(s_ig), sum(s_ix), sum(s_iy), sum(s_abs)};
 }
 
 void align(const PatchPlace& place, const PatchShape& shape, const PatchTemplate& reference, float* patch,

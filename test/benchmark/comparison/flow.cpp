@@ -53,32 +53,29 @@ std::vector<cv::Point2f> endpointsOf(const std::vector<LineSegment>& lines) {
   return points;
 }
 
-/// Ours: templates of the first image, then the flow.
+/// Ours: template in the first image, then the flow, line by line.
 class PaperFlow {
  public:
   void run(const ImagePyramid& first, const ImagePyramid& second, const std::vector<LineSegment>& lines) {
-    templates_.resize(std::max(templates_.size(), lines.size()));
     flows.resize(lines.size());
-    for (std::size_t i = 0; i < lines.size(); ++i) tracker_.describe(first, lines[i], templates_[i]);
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      flows[i] = tracker_.track(templates_[i], second, lines[i]);
+      tracker_.describe(first, lines[i], patches_);
+      flows[i] = tracker_.track(patches_, second, lines[i]);
     }
   }
   std::vector<EndpointFlow> flows;
 
  private:
   EndpointTracker tracker_{paperParameters()};
-  std::vector<LineTemplate> templates_;
+  LineTemplate patches_;
 };
 
-void printErrors(const char* name, std::vector<double>& errors, std::size_t wanted) {
+void printErrors(const char* name, std::vector<double>& errors, double found) {
   std::sort(errors.begin(), errors.end());
   const auto at = [&errors](double share) {
     return errors[static_cast<std::size_t>(share * static_cast<double>(errors.size() - 1))];
   };
-  std::printf("| %s | %.1f %% | %.4f | %.4f | %.4f |\n", name,
-              100.0 * static_cast<double>(errors.size()) / static_cast<double>(wanted), at(0.5), at(0.9),
-              at(0.99));
+  std::printf("| %s | %.1f %% | %.4f | %.4f | %.4f |\n", name, 100.0 * found, at(0.5), at(0.9), at(0.99));
 }
 
 /// Errors on images that are moved by known parts of a pixel.
@@ -86,7 +83,9 @@ void compareErrors(const Sequence& sequence, LineDetector& detector) {
   PaperFlow paper;
   OpenCvFlow opencv;
   std::vector<double> our_errors, their_errors;
-  std::size_t wanted = 0;
+  double wanted = 0.0;
+  double our_share = 0.0;
+  double their_share = 0.0;
   cv::RNG random(3);
   for (std::size_t i = 0; i < sequence.size(); i += std::max<std::size_t>(1, sequence.size() / 20)) {
     // A little blur: what is finer than pixels cannot be moved by parts of one.
@@ -108,7 +107,7 @@ void compareErrors(const Sequence& sequence, LineDetector& detector) {
     paper.run(first, second, lines);
     const std::vector<cv::Point2f> points = endpointsOf(lines);
     opencv.run(image, moved, points);
-    wanted += points.size();
+    wanted += static_cast<double>(points.size());
     for (std::size_t k = 0; k < lines.size(); ++k) {
       const LineSegment truth{lines[k].start + shift, lines[k].end + shift};
       const EndpointFlow& flow = paper.flows[k];
@@ -116,22 +115,23 @@ void compareErrors(const Sequence& sequence, LineDetector& detector) {
       const bool found =
           flow.status == EndpointFlow::Status::kTracked || flow.status == EndpointFlow::Status::kHighResidual;
       for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+        const bool found_by_opencv = opencv.status[2 * k + end] != 0;
+        our_share += found ? 1.0 : 0.0;
+        their_share += found_by_opencv ? 1.0 : 0.0;
+        if (!found || !found_by_opencv) continue;
         const Eigen::Vector2f& true_place = end == 0 ? truth.start : truth.end;
-        if (found) {
-          our_errors.push_back(((end == 0 ? flow.segment.start : flow.segment.end) - true_place).norm());
-        }
-        if (opencv.status[2 * k + end] != 0) {
-          const cv::Point2f& place = opencv.found[2 * k + end];
-          their_errors.push_back((Eigen::Vector2f(place.x, place.y) - true_place).norm());
-        }
+        const cv::Point2f& place = opencv.found[2 * k + end];
+        our_errors.push_back(((end == 0 ? flow.segment.start : flow.segment.end) - true_place).norm());
+        their_errors.push_back((Eigen::Vector2f(place.x, place.y) - true_place).norm());
       }
     }
   }
   std::printf(
-      "\nErrors of the endpoints on images moved by known vectors of up to 4 px a side [px]:\n\n"
+      "\nErrors of the endpoints that both find, on images moved by known vectors of up to 4 px a side "
+      "[px]:\n\n"
       "| flow | found | median | 90 %% | 99 %% |\n|---|---|---|---|---|\n");
-  printErrors("cv::calcOpticalFlowPyrLK", their_errors, wanted);
-  printErrors("method: paper", our_errors, wanted);
+  printErrors("cv::calcOpticalFlowPyrLK", their_errors, their_share / wanted);
+  printErrors("method: paper", our_errors, our_share / wanted);
 }
 
 }  // namespace
@@ -143,23 +143,21 @@ void compareFlow(const Sequence& sequence, std::size_t images) {
   OpenCvFlow opencv;
   ImagePyramid pyramids[2];
   std::vector<cv::Mat> cv_pyramids[2], plain;
+  // Flow follows its own pyramid at once, as in a tracker.
   for (std::size_t i = 0; i < images; ++i) {
     const cv::Mat& image = sequence.image(i);
-    ImagePyramid& ours = pyramids[i % 2];
-    std::vector<cv::Mat>& theirs = cv_pyramids[i % 2];
-    const cv::Size window(kWindow, kWindow);
-    our_pyramid.add([&] { ours.build(image, kLevels); });
-    cv_pyramid_plain.add([&] { cv::buildOpticalFlowPyramid(image, plain, window, kLevels - 1, false); });
-    cv_pyramid.add([&] { cv::buildOpticalFlowPyramid(image, theirs, window, kLevels - 1); });
-    if (i == 0) continue;
-    const cv::Mat& image_before = sequence.image(i - 1);
+    const cv::Mat& image_before = sequence.image(i == 0 ? 0 : i - 1);
     const std::vector<LineSegment> lines = longestLines(*detector, image_before);
     const std::vector<cv::Point2f> points = endpointsOf(lines);
-    const ImagePyramid& ours_before = pyramids[(i - 1) % 2];
-    const std::vector<cv::Mat>& theirs_before = cv_pyramids[(i - 1) % 2];
-    our_flow.add([&] { paper.run(ours_before, ours, lines); });
-    cv_flow.add([&] { opencv.run(theirs_before, theirs, points); });
-    cv_flow_images.add([&] { opencv.run(image_before, image, points); });
+    const cv::Size window(kWindow, kWindow);
+    ImagePyramid& ours = pyramids[i % 2];
+    our_pyramid.add([&] { ours.build(image, kLevels); });
+    if (i > 0) our_flow.add([&] { paper.run(pyramids[(i - 1) % 2], ours, lines); });
+    std::vector<cv::Mat>& theirs = cv_pyramids[i % 2];
+    cv_pyramid.add([&] { cv::buildOpticalFlowPyramid(image, theirs, window, kLevels - 1); });
+    if (i > 0) cv_flow.add([&] { opencv.run(cv_pyramids[(i - 1) % 2], theirs, points); });
+    if (i > 0) cv_flow_images.add([&] { opencv.run(image_before, image, points); });
+    cv_pyramid_plain.add([&] { cv::buildOpticalFlowPyramid(image, plain, window, kLevels - 1, false); });
   }
   std::printf("\n## Pyramid and flow of endpoints [ms]\n");
   TimeTable pyramid_table("pyramid, 3 levels");
