@@ -23,7 +23,7 @@ constexpr float kCoarseStep = 0.2F;
 constexpr float kFineStep = 0.1F;
 
 /// An endpoint that moves alone: the last step on a coarse level, in last steps of the finest one.
-constexpr float kCoarseSteps = 10.0F;
+constexpr float kCoarseSteps = 20.0F;
 
 /// On one pyramid level, in windows: beyond it nothing in the gradients speaks of the place.
 constexpr float kMaxMovement = 1.0F;
@@ -111,11 +111,14 @@ class LevelFlow {
       residual = differenceOf(match, 0) / kGrayRange;
       const Eigen::Vector2f step = -(inverse * match.slope);
       // The paper ends on a small residual alone, which smooth texture reaches long before the sub-pixel
-      // position. Without a step to take the residual stays as it is.
-      if (step.norm() < last_step || iteration == parameters_.max_iterations) {
+      // position. A step this small leaves the residual as it is.
+      const bool converged = step.norm() < last_step;
+      if (converged) point += step;
+      if (converged || iteration == parameters_.max_iterations) {
         return residual < parameters_.max_residual ? Status::kTracked : Status::kHighResidual;
       }
       point += step;
+      // Written so that it also holds for what is not a number.
       if (!((point - expected).norm() <= max_movement_)) return Status::kNoSolution;
     }
   }
@@ -151,16 +154,22 @@ class LevelFlow {
 
   /// `slot`: where the gray values are kept for differenceOf().
   PatchMatch matchAt(const Eigen::Vector2f& centre, const Patch& patch, std::size_t slot) {
-    kernels::AlignmentSums sums{};
-    kernels::active().align(reader_.patch(image_, centre), shape_, patch.reference, grayOf(slot), &sums);
-    return matchOf(patch, sums, pixels_, parameters_.gain_and_offset);
+    const kernels::PatchPlace place = reader_.patch(image_, centre);
+    if (!parameters_.gain_and_offset) {
+      kernels::DifferenceSums sums;
+      kernels_.subtract(place, shape_, patch.reference, &sums);
+      return matchOf(patch, sums, pixels_);
+    }
+    kernels::AlignmentSums sums;
+    kernels_.align(place, shape_, patch.reference, grayOf(slot), &sums);
+    return matchOf(patch, sums, pixels_);
   }
 
   /// Mean absolute difference of the gray values, gain and offset matched if so asked [gray].
   float differenceOf(const PatchMatch& match, std::size_t slot) {
     if (!parameters_.gain_and_offset) return match.absolute;
-    return kernels::active().absoluteDifference(grayOf(slot), shape_, match.patch->reference, match.gain,
-                                                match.offset) /
+    return kernels_.absoluteDifference(grayOf(slot), shape_, match.patch->reference, match.gain,
+                                       match.offset) /
            (pixels_ * match.gain);
   }
 
@@ -189,6 +198,7 @@ class LevelFlow {
 
   float* grayOf(std::size_t slot) { return gray_.data() + slot * static_cast<std::size_t>(shape_.floats()); }
 
+  const kernels::KernelTable& kernels_{kernels::active()};
   const EndpointTrackerParameters& parameters_;
   const PatchRow& row_;
   const cv::Mat& image_;

@@ -41,31 +41,32 @@ struct PatchMatch {
   float weight{1.0F};
 };
 
-/// Match of a patch of `pixels` whose sums are known. `gain_and_offset`: both are matched, within the limits
-/// of what light does; the template was projected.
-inline PatchMatch matchOf(const Patch& patch, const kernels::AlignmentSums& sums, float pixels,
-                          bool gain_and_offset) {
+/// Match with gain and offset, within the limits of what light does. The template is projected: its gradients
+/// do not see them.
+inline PatchMatch matchOf(const Patch& patch, const kernels::AlignmentSums& sums, float pixels) {
   const kernels::PatchTemplate& reference = patch.reference;
   PatchMatch match;
   match.patch = &patch;
-  float squares = 0.0F;
-  if (gain_and_offset) {
-    // A template without contrast fits any gain.
-    if (reference.gray_gray > 0.0F) {
-      match.gain = std::clamp(sums.i_gray / reference.gray_gray, kMinGain, kMaxGain);
-    }
-    match.offset = sums.i / pixels;
-    // The projected gradients do not see gain and offset: the gray value itself serves as the difference.
-    const float shrink = 1.0F / match.gain;
-    match.slope = Eigen::Vector2f(sums.i_x, sums.i_y) * shrink;
-    squares =
-        ((sums.i_i - sums.i * match.offset) * shrink - 2.0F * sums.i_gray) * shrink + reference.gray_gray;
-  } else {
-    match.slope = Eigen::Vector2f(sums.i_x - reference.gray_x, sums.i_y - reference.gray_y);
-    squares = sums.i_i - 2.0F * sums.i_gray + reference.gray_gray;
-    match.absolute = sums.absolute / pixels;
+  // A template without contrast fits any gain.
+  if (reference.gray_gray > 0.0F) {
+    match.gain = std::clamp(sums.i_gray / reference.gray_gray, kMinGain, kMaxGain);
   }
+  match.offset = sums.i / pixels;
+  const float shrink = 1.0F / match.gain;
+  match.slope = Eigen::Vector2f(sums.i_x, sums.i_y) * shrink;
+  const float squares =
+      ((sums.i_i - sums.i * match.offset) * shrink - 2.0F * sums.i_gray) * shrink + reference.gray_gray;
   match.square = std::max(0.0F, squares) / pixels;
+  return match;
+}
+
+/// Match of the gray values as they are.
+inline PatchMatch matchOf(const Patch& patch, const kernels::DifferenceSums& sums, float pixels) {
+  PatchMatch match;
+  match.patch = &patch;
+  match.slope = Eigen::Vector2f(sums.x, sums.y);
+  match.square = sums.square / pixels;
+  match.absolute = sums.absolute / pixels;
   return match;
 }
 

@@ -52,10 +52,9 @@ struct PatchTemplate {
   float* gray;
   float* gradient_x;
   float* gradient_y;
-  float mean;            ///< of gray before it was taken off
-  float gray_gray;       ///< sum of gray^2
-  float xx, xy, yy;      ///< sums of products of the gradients
-  float gray_x, gray_y;  ///< sums of gray times gradient: 0 after the projection
+  float mean;        ///< of gray before it was taken off
+  float gray_gray;   ///< sum of gray^2
+  float xx, xy, yy;  ///< sums of products of the gradients
 };
 
 /// Sums over a patch of the second image, read at some place; `i` is its gray less the template's mean.
@@ -64,7 +63,13 @@ struct AlignmentSums {
   float i_i;       ///< of i^2
   float i_gray;    ///< of i * gray
   float i_x, i_y;  ///< of i * gradient
-  float absolute;  ///< of |i - gray|: neither gain nor offset matched
+};
+
+/// Sums of differences d over a patch: the second image's less the template's gray.
+struct DifferenceSums {
+  float x, y;      ///< of d * gradient
+  float square;    ///< of d^2
+  float absolute;  ///< of |d|
 };
 
 /// Pixels of the longest profile across a line.
@@ -115,6 +120,10 @@ struct KernelTable {
   /// to `patch` (shape.floats()).
   void (*align)(const PatchPlace& place, const PatchShape& shape, const PatchTemplate& reference,
                 float* patch, AlignmentSums* sums);
+
+  /// Differences of a patch of the second image from a template, as they are: no gain, no offset.
+  void (*subtract)(const PatchPlace& place, const PatchShape& shape, const PatchTemplate& reference,
+                   DifferenceSums* sums);
 
   /// Sum of |patch - gain * gray - offset| over the patch.
   float (*absoluteDifference)(const float* patch, const PatchShape& shape, const PatchTemplate& reference,

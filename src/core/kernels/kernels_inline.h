@@ -169,8 +169,6 @@ void makeTemplateOf(const PatchPlace& place, const PatchShape& shape, bool proje
   const float mean = g_sum / pixels;
   patch->mean = origin + mean;
   patch->gray_gray = sum(gg) - g_sum * mean;
-  patch->gray_x = sum(gx) - sum(x) * mean;
-  patch->gray_y = sum(gy) - sum(y) * mean;
   patch->xx = sum(xx);
   patch->xy = sum(xy);
   patch->yy = sum(yy);
@@ -178,15 +176,16 @@ void makeTemplateOf(const PatchPlace& place, const PatchShape& shape, bool proje
   if (project) {
     x_mean = sum(x) / pixels;
     y_mean = sum(y) / pixels;
+    const float gray_x = sum(gx) - sum(x) * mean;
+    const float gray_y = sum(gy) - sum(y) * mean;
     const float floor = 1e-3F * pixels;  // a patch without contrast has no gain to take out
     if (patch->gray_gray > floor) {
-      x_gain = patch->gray_x / patch->gray_gray;
-      y_gain = patch->gray_y / patch->gray_gray;
+      x_gain = gray_x / patch->gray_gray;
+      y_gain = gray_y / patch->gray_gray;
     }
-    patch->xx -= sum(x) * x_mean + x_gain * patch->gray_x;
-    patch->xy -= sum(x) * y_mean + x_gain * patch->gray_y;
-    patch->yy -= sum(y) * y_mean + y_gain * patch->gray_y;
-    patch->gray_x = patch->gray_y = 0.0F;
+    patch->xx -= sum(x) * x_mean + x_gain * gray_x;
+    patch->xy -= sum(x) * y_mean + x_gain * gray_y;
+    patch->yy -= sum(y) * y_mean + y_gain * gray_y;
   }
   for (int row = 0; row < shape.side; ++row) {
     for (int v = 0; v < kVectors; ++v) {
@@ -211,32 +210,40 @@ void makeTemplate(const PatchPlace& place, const PatchShape& shape, bool project
   }
 }
 
+/// The rows of a patch of the second image, less the template's mean, as take(y * kVectors + v, vector).
+template <int kVectors, typename Take>
+inline __attribute__((always_inline)) void readPatch(const PatchPlace& place, int side, float mean,
+                                                     const Take& take) {
+  Float8 upper[kVectors], lower[kVectors];
+  readRow<kVectors>(place.data, place.fraction_x, upper);
+  for (int y = 0; y < side; ++y) {
+    readRow<kVectors>(place.data + (y + 1) * place.stride, place.fraction_x, lower);
+    for (int v = 0; v < kVectors; ++v) {
+      take(y * kVectors + v, upper[v] + (lower[v] - upper[v]) * place.fraction_y - mean);
+      upper[v] = lower[v];
+    }
+  }
+}
+
 template <int kVectors>
 void alignOf(const PatchPlace& place, const PatchShape& shape, const PatchTemplate& reference, float* patch,
              AlignmentSums* sums) {
   const Float8 zero = {0, 0, 0, 0, 0, 0, 0, 0};
   Float8 inside[kVectors];
   for (int v = 0; v < kVectors; ++v) inside[v] = insideColumns(v, shape.side);
-  Float8 s_i = zero, s_ii = zero, s_ig = zero, s_ix = zero, s_iy = zero, s_abs = zero;
-  Float8 upper[kVectors], lower[kVectors];
-  readRow<kVectors>(place.data, place.fraction_x, upper);
-  for (int y = 0; y < shape.side; ++y) {
-    readRow<kVectors>(place.data + (y + 1) * place.stride, place.fraction_x, lower);
-    for (int v = 0; v < kVectors; ++v) {
-      const int k = (y * kVectors + v) * kLanes;
-      const Float8 i = (upper[v] + (lower[v] - upper[v]) * place.fraction_y - reference.mean) * inside[v];
-      upper[v] = lower[v];
-      store(patch + k, i);
-      s_i += i;
-      s_ii += i * i;
-      const Float8 gray = load(reference.gray + k);
-      s_ig += i * gray;
-      s_abs += absolute(i - gray);
-      s_ix += i * load(reference.gradient_x + k);
-      s_iy += i * load(reference.gradient_y + k);
-    }
-  }
-  *sums = {sum(s_i), sum(s_ii), sum(s_ig), sum(s_ix), sum(s_iy), sum(s_abs)};
+  Float8 s_i = zero, s_ii = zero, s_ig = zero, s_ix = zero, s_iy = zero;
+  readPatch<kVectors>(
+      place, shape.side, reference.mean, [&](int vector, Float8 gray) __attribute__((always_inline)) {
+        const int k = vector * kLanes;
+        const Float8 i = gray * inside[vector % kVectors];
+        store(patch + k, i);
+        s_i += i;
+        s_ii += i * i;
+        s_ig += i * load(reference.gray + k);
+        s_ix += i * load(reference.gradient_x + k);
+        s_iy += i * load(reference.gradient_y + k);
+      });
+  *sums = {sum(s_i), sum(s_ii), sum(s_ig), sum(s_ix), sum(s_iy)};
 }
 
 void align(const PatchPlace& place, const PatchShape& shape, const PatchTemplate& reference, float* patch,
@@ -248,6 +255,37 @@ void align(const PatchPlace& place, const PatchShape& shape, const PatchTemplate
       return alignOf<2>(place, shape, reference, patch, sums);
     default:
       return alignOf<3>(place, shape, reference, patch, sums);
+  }
+}
+
+template <int kVectors>
+void subtractOf(const PatchPlace& place, const PatchShape& shape, const PatchTemplate& reference,
+                DifferenceSums* sums) {
+  const Float8 zero = {0, 0, 0, 0, 0, 0, 0, 0};
+  Float8 inside[kVectors];
+  for (int v = 0; v < kVectors; ++v) inside[v] = insideColumns(v, shape.side);
+  Float8 s_x = zero, s_y = zero, s_dd = zero, s_abs = zero;
+  readPatch<kVectors>(
+      place, shape.side, reference.mean, [&](int vector, Float8 gray) __attribute__((always_inline)) {
+        const int k = vector * kLanes;
+        const Float8 d = (gray - load(reference.gray + k)) * inside[vector % kVectors];
+        s_x += d * load(reference.gradient_x + k);
+        s_y += d * load(reference.gradient_y + k);
+        s_dd += d * d;
+        s_abs += absolute(d);
+      });
+  *sums = {sum(s_x), sum(s_y), sum(s_dd), sum(s_abs)};
+}
+
+void subtract(const PatchPlace& place, const PatchShape& shape, const PatchTemplate& reference,
+              DifferenceSums* sums) {
+  switch (shape.vectors) {
+    case 1:
+      return subtractOf<1>(place, shape, reference, sums);
+    case 2:
+      return subtractOf<2>(place, shape, reference, sums);
+    default:
+      return subtractOf<3>(place, shape, reference, sums);
   }
 }
 
@@ -265,7 +303,7 @@ float absoluteDifference(const float* patch, const PatchShape& shape, const Patc
 }
 
 constexpr KernelTable makeTable(const char* name) {
-  return {name,      halveRow,   makeTemplate, align,       absoluteDifference,
+  return {name,      halveRow,   makeTemplate, align,       subtract, absoluteDifference,
           findEdges, sumOffsets, sumSupport,   gradientRow, findPeaks};
 }
 
