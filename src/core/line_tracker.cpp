@@ -11,6 +11,7 @@
 #include "mask.h"
 #include "outlier_limit.h"
 #include "same_edge.h"
+#include "spread_chooser.h"
 #include "stopwatch.h"
 #include "tet_line_tracker/endpoint_tracker.h"
 #include "tet_line_tracker/image_pyramid.h"
@@ -379,13 +380,18 @@ void LineTracker::Implementation::addLines(const cv::Mat& gray) {
   frame_.detected = true;
   frame_.statistics.lines_detected = static_cast<std::uint32_t>(candidates_.size());
 
-  // Longest first, until there is no more room. The cheap test before the fit, and again after it.
-  for (const LineSegment& candidate : candidates_) {
-    if (frame_.lines.size() >= max_lines) break;
-    if (onSameEdge(candidate, hints_.tracked, kNewLineLimits)) continue;
-    const std::optional<EdgeFit> edge = edgeOf(gray, candidate);
+  // Long and well spread ones first, until there is no more room. The cheap test before the fit, and again
+  // after it.
+  SpreadChooser chooser(frame_.width, frame_.height, candidates_);
+  for (const LineSegment& line : hints_.tracked) chooser.add(line);
+  while (frame_.lines.size() < max_lines) {
+    const LineSegment* candidate = chooser.next();
+    if (candidate == nullptr) break;
+    if (onSameEdge(*candidate, hints_.tracked, kNewLineLimits)) continue;
+    const std::optional<EdgeFit> edge = edgeOf(gray, *candidate);
     if (!edge || onSameEdge(edge->segment, hints_.tracked, kNewLineLimits)) continue;
     hints_.tracked.push_back(edge->segment);
+    chooser.add(edge->segment);
     TrackedLine line;
     line.id = next_id_++;
     line.segment = edge->segment;
