@@ -3,7 +3,7 @@
 #
 #   scripts/measure_tracking.sh RESULTS [SEEDS [SECONDS]]
 #
-# RESULTS: folder for bags and tables; bags that are there are used again. SEEDS: one or more in quotes ("1 2"). SECONDS: of a flight (20).
+# RESULTS: folder for bags and tables; flights and baselines that are there are used again. SEEDS: one or more in quotes ("1 2"). SECONDS: of a flight (20).
 set -euo pipefail
 case ${1:-} in
   --help | -h | "") sed -n '2,6s/^# \{0,1\}//p' "$0" && exit ;;
@@ -25,7 +25,7 @@ regimes="slow fast corridor low gain shake rotation moving all"
 
 # judge NAME REGIMES [track_bag options]: tracks the flights and prints one table.
 judge() {
-  local name=$1 tracked=() flight
+  local name=$1 tracked=() flight lines
   local chosen=$2
   shift 2
   for regime in $chosen; do
@@ -34,8 +34,10 @@ judge() {
       # The regime's words are options.
       # shellcheck disable=SC2086
       [ -e "$flight" ] || "$tools/simulate_bag" "$flight" ${flights[$regime]} --seconds "$seconds" --seed "$seed"
-      "$tools/track_bag" "$flight" "$results/$regime-$seed-$name.bag" --times "$@" >"$results/$regime-$seed-$name.txt"
-      tracked+=("$results/$regime-$seed-$name.bag")
+      lines=$results/$regime-$seed-$name.bag
+      # Baselines do not change with the package: once is enough.
+      [[ $* == *--tracker* && -e $lines ]] || "$tools/track_bag" "$flight" "$lines" --times "$@" >"${lines%.bag}.txt"
+      tracked+=("$lines")
     done
   done
   echo "== $name $*"
