@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include <opencv2/core.hpp>
 
 #include "tet_line_tracker/line_segment.h"
@@ -13,7 +15,8 @@ struct EdgeFit {
   float support{0.0F};   ///< share of the samples along the segment that lie on the edge, 0..1
   float contrast{0.0F};  ///< mean slope of the gray values across the edge, positive where the left side on
                          ///< screen is brighter [gray / px]
-  float sigma_px{0.0F};  ///< standard deviation of the position along the normal [px]
+  /// Standard deviation of the position along the normal; NaN: too little support to tell [px]
+  float sigma_px{std::numeric_limits<float>::quiet_NaN()};
 };
 
 /// Puts a line on the edge under it: looks for the steepest place of the right polarity on profiles across
@@ -28,7 +31,8 @@ class LineRefiner {
   float contrastOf(const cv::Mat& gray, const LineSegment& line) const;
 
   /// Fits `line` to the edge near it whose contrast has the sign and about the size of `contrast` [gray /
-  /// px]. `gray`: 8-bit, one channel. A line with too little support comes back as it was, with its support.
+  /// px]. `gray`: 8-bit, one channel. A line with too little support comes back as it was, with its support;
+  /// on fewer than four samples it has none.
   EdgeFit fit(const cv::Mat& gray, const LineSegment& line, float contrast) const;
 
  private:

@@ -172,8 +172,9 @@ EdgeFit LineRefiner::fit(const cv::Mat& gray, const LineSegment& line, float con
   std::array<float, 3> sums;
   kernels::active().sumSupport(found, fit, kOnEdge, min_slope, sums.data());
   const auto [supported, slopes, squares] = sums;
+  if (supported < 4.0F) return result;
   result.support = supported / static_cast<float>(samples.count);
-  if (supported < 4.0F || result.support < static_cast<float>(parameters_.min_support)) return result;
+  if (result.support < static_cast<float>(parameters_.min_support)) return result;
 
   result.contrast = std::copysign(slopes / supported, contrast);
   const float variance = squares / (supported - 2.0F);

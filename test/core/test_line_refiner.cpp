@@ -57,6 +57,21 @@ TEST(LineRefiner, PutsALineOnTheEdgeAtAnyAngleToWithinATenthOfAPixel) {
   }
 }
 
+TEST(LineRefiner, GivesNoSupportOnAHandfulOfSamples) {
+  const LineRefiner refiner(LineRefinerParameters{});
+  int without = 0;
+  // An edge that ends sooner and sooner under a line as short as lines can be.
+  for (int covered = 0; covered <= 12; ++covered) {
+    cv::Mat image = edgeImage(0.0F, 60.0F, 0.0F, kMiddle);
+    image.colRange(static_cast<int>(kMiddle.x()) - 6 + covered, kWidth).setTo(100);
+    const EdgeFit fit = refiner.fit(image, along(0.0F, 12.0F, kMiddle), 20.0F);
+    if (fit.support == 0.0F) ++without;
+    EXPECT_EQ(fit.support < 0.5F, !(fit.sigma_px > 0.0F)) << covered;
+  }
+  EXPECT_GE(without, 3);
+  EXPECT_LE(without, 10);
+}
+
 TEST(LineRefiner, FindsASharpEdgeToATwentiethOfAPixelWhereverItLiesBetweenPixels) {
   const LineRefiner refiner(LineRefinerParameters{});
   for (int tenths = 0; tenths < 10; ++tenths) {
