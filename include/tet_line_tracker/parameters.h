@@ -45,7 +45,7 @@ struct PlausibilityParameters {
   double max_turn{0.2};            ///< of the direction against the expected one, 0.01..3 [rad]
   double max_stretch{1.5};         ///< of the length against the expected one, or its inverse, 1.01..10
   double max_edge_offset{1.0};     ///< of the edge from where the flow puts the line, beyond what is usual in
-                                ///< the image, 0.1..10 [px]
+                                   ///< the image, 0.1..10 [px]
 };
 
 /// Which segments are worth tracking, and when to look for more.
