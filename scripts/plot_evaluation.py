@@ -8,8 +8,10 @@ import json
 import os
 import sys
 
-import matplotlib
-
+try:
+    import matplotlib
+except ImportError:
+    sys.exit('plot_evaluation.py: plots need matplotlib (Debian and Ubuntu: apt install python3-matplotlib)')
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402 (needs the backend first)
 
