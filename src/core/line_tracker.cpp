@@ -140,6 +140,7 @@ class LineTracker::Implementation {
   int images_since_detection_{0};
   DetectionHints hints_;
   std::vector<LineSegment> candidates_;
+  SpreadChooser chooser_;
   std::uint64_t next_id_{0};
   bool any_epoch_{false};
   StreamGate::Dropped dropped_before_epoch_;
@@ -382,16 +383,16 @@ void LineTracker::Implementation::addLines(const cv::Mat& gray) {
 
   // Long and well spread ones first, until there is no more room. The cheap test before the fit, and again
   // after it.
-  SpreadChooser chooser(frame_.width, frame_.height, candidates_);
-  for (const LineSegment& line : hints_.tracked) chooser.add(line);
+  chooser_.start(frame_.width, frame_.height, candidates_);
+  for (const LineSegment& line : hints_.tracked) chooser_.add(line);
   while (frame_.lines.size() < max_lines) {
-    const LineSegment* candidate = chooser.next();
+    const LineSegment* candidate = chooser_.next();
     if (candidate == nullptr) break;
     if (onSameEdge(*candidate, hints_.tracked, kNewLineLimits)) continue;
     const std::optional<EdgeFit> edge = edgeOf(gray, *candidate);
     if (!edge || onSameEdge(edge->segment, hints_.tracked, kNewLineLimits)) continue;
     hints_.tracked.push_back(edge->segment);
-    chooser.add(edge->segment);
+    chooser_.add(edge->segment);
     TrackedLine line;
     line.id = next_id_++;
     line.segment = edge->segment;

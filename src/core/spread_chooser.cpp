@@ -4,11 +4,13 @@
 
 namespace tet_line_tracker {
 
-SpreadChooser::SpreadChooser(int width, int height, const std::vector<LineSegment>& candidates)
-    : cells_per_px_(static_cast<float>(kColumns) / static_cast<float>(width),
-                    static_cast<float>(kRows) / static_cast<float>(height)),
-      cell_px_(1.0F / cells_per_px_.maxCoeff()),
-      candidates_(candidates) {
+void SpreadChooser::start(int width, int height, const std::vector<LineSegment>& candidates) {
+  cells_per_px_ = {static_cast<float>(kColumns) / static_cast<float>(width),
+                   static_cast<float>(kRows) / static_cast<float>(height)};
+  cell_px_ = 1.0F / cells_per_px_.maxCoeff();
+  filled_.fill(0.0F);
+  candidates_ = &candidates;
+  bids_.clear();
   for (std::size_t i = 0; i < candidates.size(); ++i) bids_.push_back({worthOf(candidates[i]), i});
   std::make_heap(bids_.begin(), bids_.end());
 }
@@ -41,8 +43,8 @@ const LineSegment* SpreadChooser::next() {
     std::pop_heap(bids_.begin(), bids_.end());
     Bid best = bids_.back();
     bids_.pop_back();
-    best.worth = worthOf(candidates_[best.candidate]);
-    if (bids_.empty() || !(best < bids_.front())) return &candidates_[best.candidate];
+    best.worth = worthOf((*candidates_)[best.candidate]);
+    if (bids_.empty() || !(best < bids_.front())) return &(*candidates_)[best.candidate];
     bids_.push_back(best);
     std::push_heap(bids_.begin(), bids_.end());
   }

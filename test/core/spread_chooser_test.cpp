@@ -11,7 +11,8 @@ LineSegment horizontal(float x, float y, float length) {
 
 TEST(SpreadChooser, GivesEachCandidateOnce) {
   const std::vector<LineSegment> candidates{horizontal(10, 10, 40), horizontal(300, 200, 60)};
-  SpreadChooser chooser(800, 600, candidates);
+  SpreadChooser chooser;
+  chooser.start(800, 600, candidates);
   EXPECT_EQ(chooser.next(), &candidates[1]);
   EXPECT_EQ(chooser.next(), &candidates[0]);
   EXPECT_EQ(chooser.next(), nullptr);
@@ -19,7 +20,8 @@ TEST(SpreadChooser, GivesEachCandidateOnce) {
 
 TEST(SpreadChooser, PrefersAnEmptyPartOfTheImageToALongerLineInAFullOne) {
   const std::vector<LineSegment> candidates{horizontal(10, 20, 80), horizontal(610, 420, 50)};
-  SpreadChooser chooser(800, 600, candidates);
+  SpreadChooser chooser;
+  chooser.start(800, 600, candidates);
   for (int i = 0; i < 5; ++i) chooser.add(horizontal(10, 40.0F + 10.0F * static_cast<float>(i), 80));
   EXPECT_EQ(chooser.next(), &candidates[1]);
 }
@@ -27,7 +29,8 @@ TEST(SpreadChooser, PrefersAnEmptyPartOfTheImageToALongerLineInAFullOne) {
 TEST(SpreadChooser, ALineThatWasTakenMakesItsNeighboursWait) {
   const std::vector<LineSegment> candidates{horizontal(10, 20, 80), horizontal(10, 60, 80),
                                             horizontal(610, 420, 60)};
-  SpreadChooser chooser(800, 600, candidates);
+  SpreadChooser chooser;
+  chooser.start(800, 600, candidates);
   EXPECT_EQ(chooser.next(), &candidates[0]);
   chooser.add(candidates[0]);
   EXPECT_EQ(chooser.next(), &candidates[2]);
