@@ -68,8 +68,8 @@ buildSanitized() {
   requirePackages "${packages_build[@]}" "${packages_test[@]}"
   mkdir -p "$sanitized/devel/lib/python3/dist-packages"
   if [ ! -e "$sanitized/build.ninja" ]; then
-    cmake -S . -B "$sanitized" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCATKIN_ENABLE_TESTING=ON -DTET_FUZZ=ON \
-      -DCMAKE_CXX_FLAGS="-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer" \
+    cmake -S . -B "$sanitized" -G Ninja -DCMAKE_BUILD_TYPE=None -DCATKIN_ENABLE_TESTING=ON -DTET_FUZZ=ON \
+      -DCMAKE_CXX_FLAGS="-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer" \
       >"$build/sanitized/configure.log" 2>&1 || { cat "$sanitized/configure.log" >&2; fail "CMake could not configure the sanitized build"; }
   fi
   cmake --build "$sanitized" --target "$@"
