@@ -58,7 +58,7 @@ struct DetectionParameters {
   double redetect_share{
       0.9};  ///< joint: detect again when fewer are left of those after the last detection, 0..1
   int detection_interval{3};    ///< joint: images from one detection to the next at least, 1..1000
-  double min_new_support{0.7};  ///< joint: share of a new line that must lie on an edge, 0..1
+  double min_new_support{0.8};  ///< joint: share of a new line that must lie on an edge, 0..1
 };
 
 /// When an image continues a stream of images and when it starts another.

@@ -46,6 +46,10 @@ struct Appearance {
   ViewCut view_cut{ViewCut::kNone};
 };
 
+/// A new line is this much longer than it must be, and as far inside the border: else noise soon ends it
+/// [px].
+constexpr float kRoom = 2.0F;
+
 /// Tracks this near to each other follow the same edge.
 constexpr SameEdgeLimits kNewLineLimits{};
 constexpr SameEdgeLimits kDuplicateLimits{0.05F, 1.5F, 0.3F};
@@ -418,8 +422,13 @@ std::optional<EdgeFit> LineTracker::Implementation::edgeOf(const cv::Mat& gray,
     edge = refiner_.fit(gray, candidate, edge.contrast);
     if (edge.support < in_force_.detection.min_new_support) return std::nullopt;
   }
-  const std::optional<LineSegment> inside = clip(edge.segment, bounds_);
-  if (!inside || inside->length() < static_cast<float>(in_force_.detection.min_length)) return std::nullopt;
+  const float room = in_force_.method == "paper" ? 0.0F : kRoom;
+  const ImageBounds bounds =
+      ImageBounds::ofImage(gray.cols, gray.rows, static_cast<float>(in_force_.detection.border) + room);
+  const std::optional<LineSegment> inside = clip(edge.segment, bounds);
+  if (!inside || inside->length() < static_cast<float>(in_force_.detection.min_length) + room) {
+    return std::nullopt;
+  }
   edge.segment = *inside;
   const ViewCut cut = cutToView(edge.segment);
   count(cut);
