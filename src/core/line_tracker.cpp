@@ -54,6 +54,16 @@ constexpr float kRoom = 2.0F;
 constexpr SameEdgeLimits kNewLineLimits{};
 constexpr SameEdgeLimits kDuplicateLimits{0.05F, 1.5F, 0.3F};
 
+/// What noise moves ends by from image to image, more or less [px].
+constexpr float kNoise = 0.25F;
+
+/// `found`, or `before` where the difference may be noise alone: a line that stands still keeps its ends,
+/// which would otherwise wander along it.
+LineSegment standStill(const LineSegment& before, const LineSegment& found) {
+  const bool still = (found.start - before.start).norm() < kNoise && (found.end - before.end).norm() < kNoise;
+  return still ? before : found;
+}
+
 /// Share of the cells of an 8x6 grid over the image that a line crosses.
 float coverageOf(const std::vector<TrackedLine>& lines, int width, int height) {
   constexpr int kColumns = 8;
@@ -261,7 +271,7 @@ LossReason LineTracker::Implementation::follow(const MotionPrediction& predictio
       (!joint || flow.residual > in_force_.plausibility.max_joint_residual)) {
     return LossReason::kResidual;
   }
-  line.segment = flow.segment;
+  line.segment = joint ? standStill(line.segment, flow.segment) : flow.segment;
   line.residual = flow.residual;
   ++line.age;
   const bool paper = in_force_.method == "paper";

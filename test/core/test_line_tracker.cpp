@@ -277,5 +277,28 @@ TEST(LineTracker, AnyImageSizeIsTracked) {
   }
 }
 
+TEST(LineTracker, StandingStillKeepsEveryLineAndItsEnds) {
+  LineTracker tracker(LineTrackerParameters{});
+  const cv::Mat scene = boxesImage(640, 480, {0.0F, 0.0F});
+  cv::RNG random(7);
+  std::vector<TrackedLine> first;
+  for (int i = 0; i < 200; ++i) {
+    cv::Mat noise(scene.size(), CV_16SC1);
+    random.fill(noise, cv::RNG::NORMAL, 0.0, 3.0);
+    cv::Mat image;
+    cv::add(scene, noise, image, cv::noArray(), CV_8U);
+    const LineFrame* frame = tracker.process(image, 1000000000 + 50000000 * static_cast<std::int64_t>(i));
+    ASSERT_NE(frame, nullptr);
+    if (i == 0) first = frame->lines;
+    ASSERT_EQ(frame->lines.size(), first.size()) << i;
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      ASSERT_EQ(frame->lines[k].id, first[k].id);
+      EXPECT_LT((frame->lines[k].segment.start - first[k].segment.start).norm(), 0.3F) << i;
+      EXPECT_LT((frame->lines[k].segment.end - first[k].segment.end).norm(), 0.3F) << i;
+    }
+  }
+  EXPECT_GE(first.size(), 20U);
+}
+
 }  // namespace
 }  // namespace tet_line_tracker
