@@ -153,6 +153,8 @@ class LineTracker::Implementation {
   float coverage_after_detection_{0.0F};
   int images_since_detection_{0};
   DetectionHints hints_;
+  EdgeIndex older_{kDuplicateLimits};  ///< tracked lines before the one that is looked at
+  EdgeIndex taken_{kNewLineLimits};    ///< tracked lines and new ones
   std::vector<LineSegment> candidates_;
   SpreadChooser chooser_;
   std::uint64_t next_id_{0};
@@ -350,13 +352,10 @@ void LineTracker::Implementation::count(ViewCut cut) {
 
 void LineTracker::Implementation::dropDuplicates() {
   if (in_force_.method == "paper") return;
+  older_.clear();
   std::size_t kept = 0;
   for (std::size_t i = 0; i < frame_.lines.size(); ++i) {
-    bool duplicate = false;
-    for (std::size_t older = 0; older < kept && !duplicate; ++older) {
-      duplicate = onSameEdge(frame_.lines[i].segment, frame_.lines[older].segment, kDuplicateLimits);
-    }
-    if (duplicate) {
+    if (older_.holdsEdgeOf(frame_.lines[i].segment)) {
       ++frame_.statistics.lost[static_cast<std::size_t>(LossReason::kDuplicate)];
       continue;
     }
@@ -364,6 +363,7 @@ void LineTracker::Implementation::dropDuplicates() {
       frame_.lines[kept] = frame_.lines[i];
       std::swap(appearances_[kept], appearances_[i]);
     }
+    older_.add(frame_.lines[kept].segment);
     ++kept;
   }
   frame_.lines.resize(kept);
@@ -386,7 +386,11 @@ bool LineTracker::Implementation::detectionIsDue() {
 void LineTracker::Implementation::addLines(const cv::Mat& gray) {
   hints_.mask = mask_in_force_;
   hints_.tracked.clear();
-  for (const TrackedLine& line : frame_.lines) hints_.tracked.push_back(line.segment);
+  taken_.clear();
+  for (const TrackedLine& line : frame_.lines) {
+    hints_.tracked.push_back(line.segment);
+    taken_.add(line.segment);
+  }
   // A choice of lines is wanted, as some are no good, but the whole of a rich image takes time.
   const std::size_t max_lines = static_cast<std::size_t>(in_force_.detection.max_lines);
   const std::size_t tracked = frame_.lines.size();
@@ -402,10 +406,10 @@ void LineTracker::Implementation::addLines(const cv::Mat& gray) {
   while (frame_.lines.size() < max_lines) {
     const LineSegment* candidate = chooser_.next();
     if (candidate == nullptr) break;
-    if (onSameEdge(*candidate, hints_.tracked, kNewLineLimits)) continue;
+    if (taken_.holdsEdgeOf(*candidate)) continue;
     const std::optional<EdgeFit> edge = edgeOf(gray, *candidate);
-    if (!edge || onSameEdge(edge->segment, hints_.tracked, kNewLineLimits)) continue;
-    hints_.tracked.push_back(edge->segment);
+    if (!edge || taken_.holdsEdgeOf(edge->segment)) continue;
+    taken_.add(edge->segment);
     chooser_.add(edge->segment);
     TrackedLine line;
     line.id = next_id_++;

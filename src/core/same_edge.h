@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "tet_line_tracker/line_segment.h"
@@ -17,8 +18,27 @@ struct SameEdgeLimits {
 /// line on bright ground has two edges of opposite direction close together: those stay two lines.
 bool onSameEdge(const LineSegment& a, const LineSegment& b, const SameEdgeLimits& limits);
 
-/// True when `line` is on the same edge as one of `others`.
-bool onSameEdge(const LineSegment& line, const std::vector<LineSegment>& others,
-                const SameEdgeLimits& limits);
+/// Segments among which one on the same edge as another is found by looking at those of its direction only.
+class EdgeIndex {
+ public:
+  /// `limits`: of what is the same edge; turn at most 0.25.
+  explicit EdgeIndex(const SameEdgeLimits& limits) : limits_(limits) { heads_.fill(kNone); }
+
+  void clear();
+  void add(const LineSegment& segment);
+  /// True when `segment` is on the same edge as one that was added.
+  bool holdsEdgeOf(const LineSegment& segment) const;
+
+ private:
+  static constexpr int kSectors = 16;
+  static constexpr int kNone = -1;
+
+  static int sectorOf(const LineSegment& segment);
+
+  SameEdgeLimits limits_;
+  std::vector<LineSegment> segments_;
+  std::vector<int> next_;            ///< of each segment, in the same sector
+  std::array<int, kSectors> heads_;  ///< last segment of each sector of directions
+};
 
 }  // namespace tet_line_tracker

@@ -84,14 +84,13 @@ void LkEndpoints::addLines(const cv::Mat& gray) {
       ImageBounds::ofImage(frame().width, frame().height, static_cast<float>(detection().border));
   const std::size_t tracked = lines.size();
   const auto max_lines = static_cast<std::size_t>(detection().max_lines);
-  std::vector<LineSegment> taken;
-  taken.reserve(max_lines);
-  for (const TrackedLine& line : lines) taken.push_back(line.segment);
+  EdgeIndex taken(SameEdgeLimits{});
+  for (const TrackedLine& line : lines) taken.add(line.segment);
   for (const LineSegment& candidate : candidates_) {
     if (lines.size() >= max_lines) break;
     if (!bounds.contains(candidate.start) || !bounds.contains(candidate.end)) continue;
-    if (onSameEdge(candidate, taken, SameEdgeLimits{})) continue;
-    taken.push_back(candidate);
+    if (taken.holdsEdgeOf(candidate)) continue;
+    taken.add(candidate);
     lines.push_back(newLine(candidate));
   }
   frame().statistics.lines_added = static_cast<std::uint32_t>(lines.size() - tracked);
