@@ -110,8 +110,8 @@ inline __attribute__((always_inline)) void readRowWithSlope(const std::uint8_t* 
   }
 }
 
-template <int kVectors>
-void makeTemplateOf(const PatchPlace& place, const PatchShape& shape, bool project, PatchTemplate* patch) {
+template <int kVectors, bool kProject>
+void makeTemplateOf(const PatchPlace& place, const PatchShape& shape, PatchTemplate* patch) {
   const Float8 zero = {0, 0, 0, 0, 0, 0, 0, 0};
   const float pixels = static_cast<float>(shape.side * shape.side);
   Float8 inside[kVectors];
@@ -150,11 +150,13 @@ void makeTemplateOf(const PatchPlace& place, const PatchShape& shape, bool proje
       store(patch->gradient_x + i, b);
       store(patch->gradient_y + i, c);
       g += a;
-      x += b;
-      y += c;
       gg += a * a;
-      gx += a * b;
-      gy += a * c;
+      if (kProject) {
+        x += b;
+        y += c;
+        gx += a * b;
+        gy += a * c;
+      }
       xx += b * b;
       xy += b * c;
       yy += c * c;
@@ -173,7 +175,7 @@ void makeTemplateOf(const PatchPlace& place, const PatchShape& shape, bool proje
   patch->xy = sum(xy);
   patch->yy = sum(yy);
   float x_mean = 0.0F, y_mean = 0.0F, x_gain = 0.0F, y_gain = 0.0F;
-  if (project) {
+  if (kProject) {
     x_mean = sum(x) / pixels;
     y_mean = sum(y) / pixels;
     const float gray_x = sum(gx) - sum(x) * mean;
@@ -192,10 +194,19 @@ void makeTemplateOf(const PatchPlace& place, const PatchShape& shape, bool proje
       const int i = (row * kVectors + v) * kLanes;
       const Float8 a = (load(patch->gray + i) - mean) * inside[v];
       store(patch->gray + i, a);
-      if (!project) continue;
+      if (!kProject) continue;
       store(patch->gradient_x + i, (load(patch->gradient_x + i) - x_mean - a * x_gain) * inside[v]);
       store(patch->gradient_y + i, (load(patch->gradient_y + i) - y_mean - a * y_gain) * inside[v]);
     }
+  }
+}
+
+template <int kVectors>
+void makeTemplateOf(const PatchPlace& place, const PatchShape& shape, bool project, PatchTemplate* patch) {
+  if (project) {
+    makeTemplateOf<kVectors, true>(place, shape, patch);
+  } else {
+    makeTemplateOf<kVectors, false>(place, shape, patch);
   }
 }
 
