@@ -12,6 +12,7 @@ namespace {
 
 using Float8 = float __attribute__((vector_size(32)));
 using Float4 = float __attribute__((vector_size(16)));
+using Int4 = std::int32_t __attribute__((vector_size(16)));
 using Int8 = std::int32_t __attribute__((vector_size(32)));
 using Mask8 = std::int32_t __attribute__((vector_size(32)));
 using Short16 = std::uint16_t __attribute__((vector_size(32)));
@@ -47,6 +48,22 @@ inline __attribute__((always_inline)) Float8 load(const float* values) {
 
 inline __attribute__((always_inline)) void store(float* values, Float8 vector) {
   __builtin_memcpy(values, &vector, sizeof vector);
+}
+
+/// a > b, lane by lane. In halves for processors with shorter vectors, where GCC would compare the lanes one
+/// by one.
+inline __attribute__((always_inline)) Mask8 greater(Float8 a, Float8 b) {
+#if defined(__AVX__)
+  return a > b;
+#else
+  Float4 a_halves[2], b_halves[2];
+  __builtin_memcpy(a_halves, &a, sizeof a);
+  __builtin_memcpy(b_halves, &b, sizeof b);
+  const Int4 halves[2] = {a_halves[0] > b_halves[0], a_halves[1] > b_halves[1]};
+  Mask8 mask;
+  __builtin_memcpy(&mask, halves, sizeof mask);
+  return mask;
+#endif
 }
 
 /// Always in the same order, whatever the instruction set.

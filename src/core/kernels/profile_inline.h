@@ -17,14 +17,14 @@ template <int kStep>
 inline __attribute__((always_inline)) void growSide(const Float8* rises, int count, Float8 steepest,
                                                     Float8 floor, Float8* weights, Float8* moment) {
   const Float8 zero = {0, 0, 0, 0, 0, 0, 0, 0};
-  Mask8 running = zero > zero;
+  Mask8 running = {0, 0, 0, 0, 0, 0, 0, 0};
   Float8 before = zero;
   for (int i = 0; i < count; ++i) {
     const int k = kStep > 0 ? i : count - 1 - i;
     const Float8 place = zero + static_cast<float>(k);
     const Mask8 at_steepest = place == steepest;
-    const Mask8 grown = running & (0.5F * (before + rises[k]) > floor);
-    const Float8 weight = choose(grown & (rises[k] > zero), rises[k], zero);
+    const Mask8 grown = running & greater(0.5F * (before + rises[k]), floor);
+    const Float8 weight = choose(grown & greater(rises[k], zero), rises[k], zero);
     *weights += weight;
     *moment += weight * (place - steepest);
     running = at_steepest | grown;
@@ -62,10 +62,10 @@ void findEdges(const ProfileBatch& batch, float* places, float* slopes_found) {
     // Near the line wins over far from it.
     const Float8 distance = (static_cast<float>(k) - centre) * batch.distance_scale;
     const Float8 score = slope * (1.0F - distance * distance * 0.8F);
-    const Mask8 better = score > best_score;
+    const Mask8 better = greater(score, best_score);
     best_score = choose(better, score, best_score);
     peak = choose(better, slope, peak);
-    const Mask8 later = rises[k] > rises[k - 1];
+    const Mask8 later = greater(rises[k], rises[k - 1]);
     steepest = choose(better, choose(later, rises[k], rises[k - 1]), steepest);
     const Float8 place = zero + static_cast<float>(k);
     steepest_place = choose(better, choose(later, place, place - 1.0F), steepest_place);
@@ -78,7 +78,7 @@ void findEdges(const ProfileBatch& batch, float* places, float* slopes_found) {
   Float8 moment = zero;
   growSide<1>(rises, batch.count - 1, steepest_place, floor, &weights, &moment);
   growSide<-1>(rises, batch.count - 1, steepest_place, floor, &weights, &moment);
-  const Mask8 found = peak > zero;
+  const Mask8 found = greater(peak, zero);
   const Float8 middle = steepest_place + 0.5F + moment / choose(found, weights, zero + 1.0F);
   store(places, choose(found, middle, centre));
   store(slopes_found, choose(found, peak, zero));
