@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-#ifdef TET_HAVE_XIMGPROC
+// OpenCV 4.2 of Ubuntu 20.04 does not have it.
+#if defined(TET_HAVE_XIMGPROC) && __has_include(<opencv2/ximgproc/edge_drawing.hpp>)
+#define TET_HAVE_EDGE_DRAWING
 #include <opencv2/ximgproc.hpp>
 #endif
 
@@ -33,14 +35,14 @@ class Contender {
     for (const std::string& own : availableDetectors()) {
       if (own == name) own_ = makeLineDetector(name);
     }
-#ifdef TET_HAVE_XIMGPROC
+#ifdef TET_HAVE_EDGE_DRAWING
     if (!own_) edge_drawing_ = cv::ximgproc::createEdgeDrawing();
 #endif
   }
 
   void detect(const cv::Mat& image, float min_length, Lines& lines) {
     if (own_) return own_->detect(image, min_length, lines);
-#ifdef TET_HAVE_XIMGPROC
+#ifdef TET_HAVE_EDGE_DRAWING
     edge_drawing_->detectEdges(image);
     edge_drawing_->detectLines(found_);
     lines.clear();
@@ -57,7 +59,7 @@ class Contender {
  private:
   std::string name_;
   std::unique_ptr<LineDetector> own_;
-#ifdef TET_HAVE_XIMGPROC
+#ifdef TET_HAVE_EDGE_DRAWING
   cv::Ptr<cv::ximgproc::EdgeDrawing> edge_drawing_;
   std::vector<cv::Vec4f> found_;
 #endif
@@ -69,7 +71,7 @@ std::vector<Contender> contenders() {
     const std::vector<std::string> available = availableDetectors();
     if (std::find(available.begin(), available.end(), name) != available.end()) all.emplace_back(name);
   }
-#ifdef TET_HAVE_XIMGPROC
+#ifdef TET_HAVE_EDGE_DRAWING
   all.emplace_back("cv::ximgproc::EdgeDrawing");
 #endif
   return all;
