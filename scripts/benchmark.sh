@@ -13,9 +13,12 @@ for argument in "$@"; do
     --stages) stages=true ;;
     --help | -h) sed -n '2,7s/^# \{0,1\}//p' "$0" && exit ;;
     -*) echo "benchmark.sh: unknown option $argument; see --help" >&2 && exit 1 ;;
-    *) folder=$(cd "$argument" && pwd) ;;
+    *) folder=$argument ;;
   esac
 done
+if [ -n "$folder" ] && ! folder=$(cd "$folder" 2>/dev/null && pwd); then
+  echo "benchmark.sh: the folder of images cannot be opened; see --help" >&2 && exit 1
+fi
 . "$(dirname "$0")/environment.sh"
 
 requirePackages "${packages_benchmark[@]}"
@@ -27,10 +30,7 @@ tools=$build/devel/lib/tet_line_tracker
 
 shared=${TET_SHARED_DATA:-$project/../shared/data}/euroc_v1_01/mav0/cam0/data
 if [ -z "$folder" ] && [ -d "$shared" ]; then folder=$shared; fi
-# What is left of the path says what it is, not where.
-cd "${folder:-.}"
-"$tools/speed_comparison" ${folder:+.}
-cd "$project"
+"$tools/speed_comparison" ${folder:+"$folder"}
 
 flight=$build/benchmark/flight.bag
 mkdir -p "$build/benchmark"

@@ -89,8 +89,13 @@ requireFlight() {
 # `children` ends with the script.
 children=()
 stopChildren() {
-  # Again after a while: one that is just starting does not listen yet.
-  while kill -INT "${children[@]}" 2>/dev/null; do sleep 2; done
+  # Again after a while: one that is just starting does not listen yet. One that never does is not waited for.
+  local tries
+  for tries in 1 2 3 4 5 6 7 8; do
+    kill -INT "${children[@]}" 2>/dev/null || break
+    sleep 2
+  done
+  kill -KILL "${children[@]}" 2>/dev/null || true
   wait
 }
 chooseMaster() {

@@ -3,7 +3,7 @@
 
     run_memory.py LABEL COMMAND [ARGUMENT ...]
 
-Prints a row of a Markdown table in MB; ends with the command's exit status.
+Prints a row of a Markdown table in MB; fails when the command does.
 """
 import os
 import subprocess
@@ -29,10 +29,12 @@ def main():
         samples.append(resident_mb(process.pid))
         time.sleep(0.01)
     samples = [sample for sample in samples if sample > 0.0]
+    if process.returncode != 0 or not samples:
+        sys.exit('run_memory.py: {} ended with status {}'.format(sys.argv[2], process.returncode))
     quarters = [samples[min(len(samples) - 1, len(samples) * share // 4)] for share in (1, 2, 3, 4)]
     cells = ['{:.0f}'.format(value) for value in quarters + [max(samples)]]
     print('| {} | {} |'.format(sys.argv[1], ' | '.join(cells)))
-    return process.returncode
+    return 0
 
 
 if __name__ == '__main__':

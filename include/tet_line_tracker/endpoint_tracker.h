@@ -34,8 +34,10 @@ struct EndpointFlow {
     kHighResidual  ///< the gray values do not match
   };
   Status status{Status::kNoSolution};
-  LineSegment segment;   ///< in the second image [px]
-  float residual{0.0F};  ///< mean absolute gray difference of the worse patch at either end, 0..1
+  LineSegment segment;  ///< in the second image [px]
+  /// Mean absolute gray difference, 0..1: of the worse end's patch, or of all patches where both ends move
+  /// together.
+  float residual{0.0F};
 };
 
 /// TET, Algorithm 1 of the paper: follows both endpoints of a segment from one image to the next by iterative
