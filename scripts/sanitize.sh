@@ -8,7 +8,7 @@ set -euo pipefail
 . "$(dirname "$0")/environment.sh"
 
 tests=("$@")
-if [ ${#tests[@]} -eq 0 ]; then mapfile -t tests < <(basename -s .cpp test/core/*.cpp); fi
+if [ ${#tests[@]} -eq 0 ]; then mapfile -t tests < <(basename -s .cpp test/core/*/*.cpp); fi
 buildSanitized "${tests[@]}"
 for test in "${tests[@]}"; do
   echo "$test ..."

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "tet_line_tracker/line_segment.h"
+#include "tet_line_tracker/geometry/line_segment.h"
 
 namespace tet_line_tracker {
 namespace {

@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "pose_track.h"
-#include "tet_line_tracker/camera_model.h"
+#include "tet_line_tracker/camera/camera_model.h"
 #include "truth.h"
 
 namespace tet_line_tracker {

@@ -6,7 +6,7 @@
 
 #include "pose_track.h"
 #include "simulation/scene_geometry.h"
-#include "tet_line_tracker/camera_model.h"
+#include "tet_line_tracker/camera/camera_model.h"
 #include "truth.h"
 
 namespace tet_line_tracker {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "tet_line_tracker/line_segment.h"
+#include "tet_line_tracker/geometry/line_segment.h"
 #include "truth.h"
 
 namespace tet_line_tracker {

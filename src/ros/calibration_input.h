@@ -8,7 +8,7 @@
 
 #include <sensor_msgs/CameraInfo.h>
 
-#include "tet_line_tracker/camera_model.h"
+#include "tet_line_tracker/camera/camera_model.h"
 
 namespace tet_line_tracker {
 

@@ -11,7 +11,7 @@
 #include <tf2/buffer_core.h>
 #include <Eigen/Core>
 
-#include "tet_line_tracker/line_tracker.h"
+#include "tet_line_tracker/tracking/line_tracker.h"
 
 namespace tet_line_tracker {
 

@@ -25,10 +25,10 @@
 #include "markers.h"
 #include "newest_queue.h"
 #include "node_parameters.h"
+#include "publish_throttle.h"
 #include "stream_diagnostics.h"
-#include "tet_line_tracker/line_tracker.h"
-#include "tet_line_tracker/publish_throttle.h"
-#include "tet_line_tracker/track_painter.h"
+#include "tet_line_tracker/display/track_painter.h"
+#include "tet_line_tracker/tracking/line_tracker.h"
 
 namespace tet_line_tracker {
 

@@ -8,7 +8,7 @@
 #include <visualization_msgs/Marker.h>
 
 #include "tet_line_tracker/Line3DArray.h"
-#include "tet_line_tracker/line_mapper.h"
+#include "tet_line_tracker/mapping/line_mapper.h"
 
 namespace tet_line_tracker {
 

@@ -1,6 +1,6 @@
 #include "markers.h"
 
-#include "tet_line_tracker/track_painter.h"
+#include "tet_line_tracker/display/track_painter.h"
 
 namespace tet_line_tracker {
 namespace {

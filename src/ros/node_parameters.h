@@ -6,8 +6,8 @@
 
 #include <ros/node_handle.h>
 
-#include "tet_line_tracker/parameter_table.h"
-#include "tet_line_tracker/parameters.h"
+#include "tet_line_tracker/parameters/parameter_table.h"
+#include "tet_line_tracker/parameters/parameters.h"
 
 namespace tet_line_tracker {
 

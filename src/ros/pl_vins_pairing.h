@@ -13,7 +13,7 @@
 #include "contiguous_ids.h"
 #include "frequency_gate.h"
 #include "tet_line_tracker/LineArray.h"
-#include "tet_line_tracker/parameter_table.h"
+#include "tet_line_tracker/parameters/parameter_table.h"
 
 namespace tet_line_tracker {
 

@@ -12,7 +12,7 @@
 #include "light.h"
 #include "renderer.h"
 #include "sensor.h"
-#include "tet_line_tracker/camera_model.h"
+#include "tet_line_tracker/camera/camera_model.h"
 #include "trajectory.h"
 #include "world.h"
 

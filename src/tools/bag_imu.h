@@ -10,7 +10,7 @@
 #include <rosbag/bag.h>
 #include <Eigen/Core>
 
-#include "tet_line_tracker/line_tracker.h"
+#include "tet_line_tracker/tracking/line_tracker.h"
 
 namespace tet_line_tracker {
 

@@ -9,7 +9,7 @@
 #include "datasets/trajectory.h"
 #include "program.h"
 #include "sequence_bag.h"
-#include "tet_line_tracker/calibration_file.h"
+#include "tet_line_tracker/camera/calibration_file.h"
 
 namespace tet_line_tracker {
 namespace {

@@ -9,7 +9,7 @@
 #include "parameter_markdown.h"
 #include "parameter_yaml.h"
 #include "program.h"
-#include "tet_line_tracker/line_mapper.h"
+#include "tet_line_tracker/mapping/line_mapper.h"
 
 namespace tet_line_tracker {
 namespace {

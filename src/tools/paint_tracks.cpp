@@ -15,7 +15,7 @@
 #include "line_bag.h"
 #include "program.h"
 #include "sequence_bag.h"
-#include "tet_line_tracker/track_painter.h"
+#include "tet_line_tracker/display/track_painter.h"
 
 namespace tet_line_tracker {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "tet_line_tracker/parameter_table.h"
+#include "tet_line_tracker/parameters/parameter_table.h"
 
 namespace tet_line_tracker {
 

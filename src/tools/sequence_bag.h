@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "bag_writer.h"
-#include "tet_line_tracker/camera_model.h"
+#include "tet_line_tracker/camera/camera_model.h"
 
 namespace tet_line_tracker {
 

@@ -10,7 +10,7 @@
 #include "../simulation/simulation.h"
 #include "program.h"
 #include "sequence_bag.h"
-#include "tet_line_tracker/calibration_file.h"
+#include "tet_line_tracker/camera/calibration_file.h"
 
 namespace po = boost::program_options;
 using namespace tet_line_tracker;

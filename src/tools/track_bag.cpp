@@ -27,7 +27,7 @@
 #include "parameter_arguments.h"
 #include "program.h"
 #include "sequence_bag.h"
-#include "tet_line_tracker/line_tracker.h"
+#include "tet_line_tracker/tracking/line_tracker.h"
 #include "time_table.h"
 
 namespace tet_line_tracker {

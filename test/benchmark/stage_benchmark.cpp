@@ -6,13 +6,13 @@
 #include <benchmark/benchmark.h>
 
 #include "comparison/sequence.h"
-#include "core/kernels/kernels.h"
-#include "tet_line_tracker/endpoint_tracker.h"
-#include "tet_line_tracker/image_pyramid.h"
-#include "tet_line_tracker/line_detector.h"
-#include "tet_line_tracker/line_refiner.h"
-#include "tet_line_tracker/line_tracker.h"
-#include "tet_line_tracker/motion_prior.h"
+#include "kernels/kernels.h"
+#include "tet_line_tracker/detection/line_detector.h"
+#include "tet_line_tracker/flow/endpoint_tracker.h"
+#include "tet_line_tracker/image/image_pyramid.h"
+#include "tet_line_tracker/motion/motion_prior.h"
+#include "tet_line_tracker/refinement/line_refiner.h"
+#include "tet_line_tracker/tracking/line_tracker.h"
 
 namespace tet_line_tracker {
 namespace {

@@ -10,7 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "evaluation/line_rules.h"
-#include "tet_line_tracker/line_detector.h"
+#include "tet_line_tracker/detection/line_detector.h"
 
 namespace tet_line_tracker {
 namespace {

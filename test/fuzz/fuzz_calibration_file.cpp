@@ -1,7 +1,7 @@
 #include <stdexcept>
 
 #include "fuzz_target.h"
-#include "tet_line_tracker/calibration_file.h"
+#include "tet_line_tracker/camera/calibration_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static tet_line_tracker::InputFile file(".yaml");

@@ -5,7 +5,7 @@
 
 #include "../../src/ros/camera_info.h"
 #include "fuzz_target.h"
-#include "tet_line_tracker/camera_model.h"
+#include "tet_line_tracker/camera/camera_model.h"
 
 using tet_line_tracker::Bytes;
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tet_line_tracker/track_painter.h"
+#include "tet_line_tracker/display/track_painter.h"
 
 namespace tet_line_tracker {
 namespace {

@@ -15,8 +15,8 @@
 
 #include "../../src/ros/camera_info.h"
 #include "bag_content.h"
-#include "tet_line_tracker/calibration_file.h"
-#include "tet_line_tracker/camera_model.h"
+#include "tet_line_tracker/camera/calibration_file.h"
+#include "tet_line_tracker/camera/camera_model.h"
 #include "tool_run.h"
 
 namespace tet_line_tracker {

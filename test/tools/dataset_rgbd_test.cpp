@@ -7,7 +7,7 @@
 
 #include "bag_content.h"
 #include "dataset_folder.h"
-#include "tet_line_tracker/calibration_file.h"
+#include "tet_line_tracker/camera/calibration_file.h"
 
 namespace tet_line_tracker {
 namespace {

@@ -8,7 +8,7 @@
 #include "../../src/ros/node_parameters.h"
 #include "../../src/ros/pl_vins_pairing.h"
 #include "parameter_markdown.h"
-#include "tet_line_tracker/line_mapper.h"
+#include "tet_line_tracker/mapping/line_mapper.h"
 
 namespace tet_line_tracker {
 namespace {

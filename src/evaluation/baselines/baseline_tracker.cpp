@@ -2,9 +2,9 @@
 
 #include <stdexcept>
 
-#include "../../core/stopwatch.h"
 #include "../track_measures.h"
 #include "lk_endpoints.h"
+#include "tracking/stopwatch.h"
 #ifdef TET_HAVE_LINE_DESCRIPTOR
 #include "lsd_lbd_knn.h"
 #endif

@@ -7,9 +7,9 @@
 
 #include <opencv2/core.hpp>
 
-#include "tet_line_tracker/camera_model.h"
-#include "tet_line_tracker/line_tracker.h"
-#include "tet_line_tracker/stream_gate.h"
+#include "tet_line_tracker/camera/camera_model.h"
+#include "tet_line_tracker/tracking/line_tracker.h"
+#include "tet_line_tracker/tracking/stream_gate.h"
 
 namespace tet_line_tracker {
 

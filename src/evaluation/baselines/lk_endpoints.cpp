@@ -4,8 +4,8 @@
 
 #include <opencv2/video/tracking.hpp>
 
-#include "../../core/same_edge.h"
-#include "../../core/stopwatch.h"
+#include "geometry/segment_index.h"
+#include "tracking/stopwatch.h"
 
 namespace tet_line_tracker {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "baseline_tracker.h"
-#include "tet_line_tracker/line_detector.h"
+#include "tet_line_tracker/detection/line_detector.h"
 
 namespace tet_line_tracker {
 

@@ -7,7 +7,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "../../core/stopwatch.h"
+#include "tracking/stopwatch.h"
 
 namespace tet_line_tracker {
 namespace {

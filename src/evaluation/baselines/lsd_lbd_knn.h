@@ -7,7 +7,7 @@
 #include <opencv2/line_descriptor.hpp>
 
 #include "baseline_tracker.h"
-#include "tet_line_tracker/line_detector.h"
+#include "tet_line_tracker/detection/line_detector.h"
 
 namespace tet_line_tracker {
 

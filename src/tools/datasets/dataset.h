@@ -11,7 +11,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
-#include "tet_line_tracker/camera_model.h"
+#include "tet_line_tracker/camera/camera_model.h"
 
 namespace tet_line_tracker {
 

@@ -15,7 +15,7 @@
 #include "evaluation/scene_truth.h"
 #include "sections.h"
 #include "simulation/simulation.h"
-#include "tet_line_tracker/line_detector.h"
+#include "tet_line_tracker/detection/line_detector.h"
 #include "timing.h"
 
 namespace tet_line_tracker {

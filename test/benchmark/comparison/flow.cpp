@@ -6,9 +6,9 @@
 #include <opencv2/video/tracking.hpp>
 
 #include "sections.h"
-#include "tet_line_tracker/endpoint_tracker.h"
-#include "tet_line_tracker/image_pyramid.h"
-#include "tet_line_tracker/line_detector.h"
+#include "tet_line_tracker/detection/line_detector.h"
+#include "tet_line_tracker/flow/endpoint_tracker.h"
+#include "tet_line_tracker/image/image_pyramid.h"
 #include "timing.h"
 
 namespace tet_line_tracker {

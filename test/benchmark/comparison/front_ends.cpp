@@ -4,7 +4,7 @@
 
 #include "evaluation/baselines/baseline_tracker.h"
 #include "sections.h"
-#include "tet_line_tracker/line_tracker.h"
+#include "tet_line_tracker/tracking/line_tracker.h"
 #include "timing.h"
 
 namespace tet_line_tracker {

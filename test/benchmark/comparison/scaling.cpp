@@ -2,9 +2,9 @@
 #include <functional>
 
 #include "sections.h"
-#include "tet_line_tracker/image_pyramid.h"
-#include "tet_line_tracker/line_detector.h"
-#include "tet_line_tracker/line_tracker.h"
+#include "tet_line_tracker/detection/line_detector.h"
+#include "tet_line_tracker/image/image_pyramid.h"
+#include "tet_line_tracker/tracking/line_tracker.h"
 #include "timing.h"
 
 namespace tet_line_tracker {

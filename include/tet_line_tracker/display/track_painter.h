@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <unordered_map>
+
+#include <opencv2/core.hpp>
+
+#include "tet_line_tracker/tracking/line_tracker.h"
+
+namespace tet_line_tracker {
+
+/// Age from which on a track has the colour of the oldest [images].
+constexpr std::uint32_t kOldestColouredAge = 100;
+
+/// Colour of a track: from red (just detected) over yellow and green to blue (kOldestColouredAge and older),
+/// on a logarithmic scale. Red, green, blue, 0..1.
+std::array<float, 3> colourOfAge(std::uint32_t age);
+
+/// Draws the lines of images over these images: coloured by age, with their ids, the way their endpoints
+/// came, and a scale of the colours. Keeps the recent endpoints of the lines it has painted.
+class TrackPainter {
+ public:
+  struct Style {
+    std::size_t trail_images{12};  ///< endpoints are followed back over so many painted images; 0: no trail
+    bool ids{true};
+    bool scale{true};  ///< colour scale and counts along the lower border
+  };
+
+  TrackPainter() : TrackPainter(Style{}) {}
+  explicit TrackPainter(const Style& style) : style_(style) {}
+
+  /// Paints `frame` over its image `gray` (8-bit, one channel) into `bgr`, which is reallocated unless it is
+  /// an 8-bit image of three channels and the same size already. Throws std::invalid_argument when `gray` is
+  /// not 8-bit gray or not of the frame's size.
+  void paint(const cv::Mat& gray, const LineFrame& frame, cv::Mat& bgr);
+
+ private:
+  struct Trail {
+    std::deque<LineSegment> segments;  ///< latest last
+    std::uint64_t painted{0};          ///< number of the painting that saw the line last
+  };
+
+  void follow(const LineFrame& frame);
+  void drawTrail(const Trail& trail, const cv::Scalar& colour, cv::Mat& bgr) const;
+
+  Style style_;
+  std::uint32_t epoch_{0};
+  std::uint64_t paintings_{0};
+  std::unordered_map<std::uint64_t, Trail> trails_;
+};
+
+}  // namespace tet_line_tracker

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "tet_line_tracker/camera/camera_model.h"
+#include "tet_line_tracker/geometry/line_segment.h"
+#include "tet_line_tracker/image/image_pyramid.h"
+#include "tet_line_tracker/parameters/parameters.h"
+
+namespace tet_line_tracker {
+
+/// How the camera is expected to have turned from the image before to this one.
+struct MotionPrediction {
+  enum class Source { kNone, kImu, kImage };
+  Source source{Source::kNone};
+  /// Takes directions in the camera's optical frame at the image before to the same directions at this one.
+  Eigen::Matrix3d rotation{Eigen::Matrix3d::Identity()};
+  double angle() const;            ///< of the rotation [rad]
+  const char* sourceName() const;  ///< none, imu or image
+  bool used() const { return source != Source::kNone; }
+};
+
+/// Predicts where lines are in the next image from the rotation of the camera, which moves far and near
+/// points alike and makes up most of the image motion of a fast camera. The rotation comes from a gyroscope,
+/// or from a direct alignment of the coarsest pyramid levels, and is used only if the images agree that it is
+/// better than none. Not thread-safe.
+class MotionPrior {
+ public:
+  explicit MotionPrior(const MotionPriorParameters& parameters);
+  ~MotionPrior();
+  MotionPrior(MotionPrior&&) noexcept;
+  MotionPrior& operator=(MotionPrior&&) noexcept;
+
+  /// Calibration; nullptr: a pinhole with a focal length of the image's width is assumed.
+  void setCamera(std::shared_ptr<const CameraModel> camera);
+  /// Takes directions in the IMU's frame to the camera's optical frame. Without it angular velocities are not
+  /// used.
+  void setImuRotation(const Eigen::Matrix3d& camera_from_imu);
+  /// Angular velocity in the IMU's frame [rad/s], in the order of stamps [ns]; late ones are ignored.
+  void addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3d& angular_velocity);
+
+  /// Forgets the image before; the next predict() gives no motion.
+  void reset();
+
+  /// Motion from the image of the call before to this one, and makes this one the image before.
+  MotionPrediction predict(const ImagePyramid& pyramid, std::int64_t stamp_ns);
+
+  /// Where `segment` of the image before is expected after `prediction`; itself where the camera cannot see
+  /// it. `start_normalized`, `end_normalized`: its endpoints on z = 1, NaN where not known.
+  LineSegment apply(const MotionPrediction& prediction, const LineSegment& segment,
+                    const Eigen::Vector2d& start_normalized, const Eigen::Vector2d& end_normalized) const;
+
+  /// Pyramid levels that predict() wants to see.
+  static constexpr int kPyramidLevels = 5;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace tet_line_tracker

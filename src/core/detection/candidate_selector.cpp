@@ -1,0 +1,54 @@
+#include "detection/candidate_selector.h"
+
+#include <algorithm>
+
+namespace tet_line_tracker {
+
+void SpreadChooser::start(int width, int height, const std::vector<LineSegment>& candidates) {
+  cells_per_px_ = {static_cast<float>(kColumns) / static_cast<float>(width),
+                   static_cast<float>(kRows) / static_cast<float>(height)};
+  cell_px_ = 1.0F / cells_per_px_.maxCoeff();
+  filled_.fill(0.0F);
+  candidates_ = &candidates;
+  bids_.clear();
+  for (std::size_t i = 0; i < candidates.size(); ++i) bids_.push_back({worthOf(candidates[i]), i});
+  std::make_heap(bids_.begin(), bids_.end());
+}
+
+template <class Visit>
+void SpreadChooser::visitCells(const LineSegment& line, const Visit& visit) const {
+  const int steps = 2 + static_cast<int>(2.0F * line.length() / cell_px_);
+  const float share = line.length() / (static_cast<float>(steps) * cell_px_);
+  for (int i = 0; i < steps; ++i) {
+    const Eigen::Vector2f place =
+        line.at((static_cast<float>(i) + 0.5F) / static_cast<float>(steps)).cwiseProduct(cells_per_px_);
+    const int column = std::clamp(static_cast<int>(place.x()), 0, kColumns - 1);
+    const int row = std::clamp(static_cast<int>(place.y()), 0, kRows - 1);
+    visit(static_cast<std::size_t>(row * kColumns + column), share);
+  }
+}
+
+void SpreadChooser::add(const LineSegment& line) {
+  visitCells(line, [this](std::size_t cell, float length) { filled_[cell] += length; });
+}
+
+float SpreadChooser::worthOf(const LineSegment& line) const {
+  float worth = 0.0F;
+  visitCells(line, [&](std::size_t cell, float length) { worth += length / (1.0F + filled_[cell]); });
+  return worth;
+}
+
+const LineSegment* SpreadChooser::next() {
+  while (!bids_.empty()) {
+    std::pop_heap(bids_.begin(), bids_.end());
+    Bid best = bids_.back();
+    bids_.pop_back();
+    best.worth = worthOf((*candidates_)[best.candidate]);
+    if (bids_.empty() || !(best < bids_.front())) return &(*candidates_)[best.candidate];
+    bids_.push_back(best);
+    std::push_heap(bids_.begin(), bids_.end());
+  }
+  return nullptr;
+}
+
+}  // namespace tet_line_tracker

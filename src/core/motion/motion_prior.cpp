@@ -1,0 +1,221 @@
+#include "tet_line_tracker/motion/motion_prior.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "motion/gyro_integrator.h"
+#include "motion/rotation_aligner.h"
+
+namespace tet_line_tracker {
+namespace {
+
+constexpr int kCoarseLevel = 4;
+constexpr int kFineLevel = 3;
+constexpr int kCoarseIterations = 12;
+constexpr int kFineIterations = 6;
+constexpr int kBiasIterations = 3;
+
+/// The bias of a gyroscope is learned as a mean over about this share of an image each, up to this size
+/// [rad/s].
+constexpr float kBiasShare = 0.05F;
+constexpr float kMaxGyroBias = 0.1F;
+
+/// A prediction must make the images fit at least this much better than no motion does.
+constexpr float kMinImprovement = 0.9F;
+
+Eigen::Vector3f vectorOf(const Eigen::Matrix3d& rotation) {
+  const Eigen::AngleAxisd turn(rotation);
+  return (turn.angle() * turn.axis()).cast<float>();
+}
+
+Eigen::Matrix3d rotationOf(const Eigen::Vector3f& turn) {
+  const double angle = static_cast<double>(turn.norm());
+  if (angle == 0.0) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle, turn.cast<double>() / angle).toRotationMatrix();
+}
+
+}  // namespace
+
+double MotionPrediction::angle() const {
+  return Eigen::AngleAxisd(rotation).angle();
+}
+
+const char* MotionPrediction::sourceName() const {
+  switch (source) {
+    case Source::kImu:
+      return "imu";
+    case Source::kImage:
+      return "image";
+    default:
+      return "none";
+  }
+}
+
+class MotionPrior::Implementation {
+ public:
+  explicit Implementation(const MotionPriorParameters& parameters) : parameters_(parameters) {}
+
+  void setCamera(std::shared_ptr<const CameraModel> camera) {
+    if (camera == camera_) return;
+    camera_ = std::move(camera);
+    aligned_camera_.reset();
+  }
+  void setImuRotation(const Eigen::Matrix3d& camera_from_imu) { camera_from_imu_ = camera_from_imu; }
+  void addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3d& velocity) {
+    gyro_.add(stamp_ns, velocity);
+  }
+  void reset() {
+    coarse_.forget();
+    fine_.forget();
+    last_turn_.setZero();
+  }
+  MotionPrediction predict(const ImagePyramid& pyramid, std::int64_t stamp_ns);
+  LineSegment apply(const MotionPrediction& prediction, const LineSegment& segment,
+                    const Eigen::Vector2d& start_normalized, const Eigen::Vector2d& end_normalized) const;
+
+ private:
+  void prepareCamera(const ImagePyramid& pyramid);
+  std::optional<Eigen::Vector3f> gyroTurn(std::int64_t stamp_ns) const;
+  void learnGyroBias(const Eigen::Vector3f& measured, const Eigen::Vector3f& aligned, float interval_s);
+  Eigen::Vector3f imageTurn(const ImagePyramid& pyramid);
+
+  MotionPriorParameters parameters_;
+  std::shared_ptr<const CameraModel> camera_;
+  std::shared_ptr<const CameraModel> aligned_camera_;  ///< camera_, or the one assumed without calibration
+  std::optional<Eigen::Matrix3d> camera_from_imu_;
+  GyroIntegrator gyro_;
+  RotationAligner coarse_{kCoarseLevel};
+  RotationAligner fine_{kFineLevel};
+  Eigen::Vector3f gyro_bias_{Eigen::Vector3f::Zero()};  ///< in the camera's optical frame [rad/s]
+  std::int64_t last_stamp_ns_{0};
+  Eigen::Vector3f last_turn_{Eigen::Vector3f::Zero()};
+};
+
+void MotionPrior::Implementation::prepareCamera(const ImagePyramid& pyramid) {
+  const cv::Mat& image = pyramid.level(0);
+  if (aligned_camera_ && aligned_camera_->calibration().width == image.cols &&
+      aligned_camera_->calibration().height == image.rows) {
+    return;
+  }
+  CameraCalibration calibration;
+  if (camera_) {
+    calibration = camera_->calibration();
+  } else {
+    calibration.fx = calibration.fy = image.cols;
+    calibration.cx = 0.5 * (image.cols - 1);
+    calibration.cy = 0.5 * (image.rows - 1);
+  }
+  calibration.width = image.cols;
+  calibration.height = image.rows;
+  aligned_camera_ = makeCameraModel(calibration);
+  coarse_.setCamera(*aligned_camera_);
+  fine_.setCamera(*aligned_camera_);
+}
+
+std::optional<Eigen::Vector3f> MotionPrior::Implementation::gyroTurn(std::int64_t stamp_ns) const {
+  if (!camera_from_imu_ || (parameters_.prior != "imu" && parameters_.prior != "auto")) return std::nullopt;
+  const std::optional<Eigen::Matrix3d> rotation =
+      gyro_.rotation(last_stamp_ns_, stamp_ns, Eigen::Vector3d::Zero());
+  if (!rotation) return std::nullopt;
+  return vectorOf(*camera_from_imu_ * *rotation * camera_from_imu_->transpose());
+}
+
+void MotionPrior::Implementation::learnGyroBias(const Eigen::Vector3f& measured,
+                                                const Eigen::Vector3f& aligned, float interval_s) {
+  const Eigen::Vector3f difference = (measured - aligned) / interval_s;
+  // Parallax and blur disturb single images: a slow mean, and nothing that no gyroscope does.
+  if (!difference.allFinite() || difference.norm() > kMaxGyroBias) return;
+  gyro_bias_ += kBiasShare * (difference - gyro_bias_);
+}
+
+Eigen::Vector3f MotionPrior::Implementation::imageTurn(const ImagePyramid& pyramid) {
+  // From standing still and from going on as before, whichever fits better.
+  Eigen::Vector3f start = Eigen::Vector3f::Zero();
+  if (coarse_.hasImage()) {
+    if (coarse_.cost(pyramid, last_turn_) < coarse_.cost(pyramid, start)) start = last_turn_;
+    start = coarse_.align(pyramid, start, kCoarseIterations);
+  }
+  return fine_.hasImage() ? fine_.align(pyramid, start, kFineIterations) : start;
+}
+
+MotionPrediction MotionPrior::Implementation::predict(const ImagePyramid& pyramid, std::int64_t stamp_ns) {
+  MotionPrediction prediction;
+  if (parameters_.prior == "none") return prediction;
+  prepareCamera(pyramid);
+  RotationAligner& judge = fine_.hasImage() ? fine_ : coarse_;
+  if (judge.hasImage()) {
+    const float still = kMinImprovement * judge.cost(pyramid, Eigen::Vector3f::Zero());
+    Eigen::Vector3f turn = Eigen::Vector3f::Zero();
+    const std::optional<Eigen::Vector3f> measured = gyroTurn(stamp_ns);
+    const float interval_s = 1e-9F * static_cast<float>(stamp_ns - last_stamp_ns_);
+    const Eigen::Vector3f corrected = measured ? Eigen::Vector3f(*measured - interval_s * gyro_bias_) : turn;
+    if (measured && judge.cost(pyramid, corrected) < still) {
+      prediction.source = MotionPrediction::Source::kImu;
+      turn = corrected;
+      learnGyroBias(*measured, judge.align(pyramid, corrected, kBiasIterations), interval_s);
+    } else if (!measured || parameters_.prior == "auto") {
+      const Eigen::Vector3f found = imageTurn(pyramid);
+      if (found.allFinite() && judge.cost(pyramid, found) < still) {
+        prediction.source = MotionPrediction::Source::kImage;
+        turn = found;
+      }
+    }
+    prediction.rotation = rotationOf(turn);
+    last_turn_ = turn;
+  }
+  coarse_.describe(pyramid);
+  fine_.describe(pyramid);
+  gyro_.forgetBefore(stamp_ns);
+  last_stamp_ns_ = stamp_ns;
+  return prediction;
+}
+
+LineSegment MotionPrior::Implementation::apply(const MotionPrediction& prediction, const LineSegment& segment,
+                                               const Eigen::Vector2d& start_normalized,
+                                               const Eigen::Vector2d& end_normalized) const {
+  if (!aligned_camera_ || !prediction.used()) return segment;
+  const auto turned = [&](const Eigen::Vector2f& point,
+                          const Eigen::Vector2d& normalized) -> std::optional<Eigen::Vector2d> {
+    if (normalized.allFinite())
+      return aligned_camera_->project(prediction.rotation * normalized.homogeneous());
+    const std::optional<Eigen::Vector3d> ray = aligned_camera_->unproject(point.cast<double>());
+    if (!ray) return std::nullopt;
+    return aligned_camera_->project(prediction.rotation * *ray);
+  };
+  const std::optional<Eigen::Vector2d> start = turned(segment.start, start_normalized);
+  const std::optional<Eigen::Vector2d> end = turned(segment.end, end_normalized);
+  if (!start || !end) return segment;
+  return {start->cast<float>(), end->cast<float>()};
+}
+
+MotionPrior::MotionPrior(const MotionPriorParameters& parameters)
+    : implementation_(std::make_unique<Implementation>(parameters)) {}
+MotionPrior::~MotionPrior() = default;
+MotionPrior::MotionPrior(MotionPrior&&) noexcept = default;
+MotionPrior& MotionPrior::operator=(MotionPrior&&) noexcept = default;
+
+void MotionPrior::setCamera(std::shared_ptr<const CameraModel> camera) {
+  implementation_->setCamera(std::move(camera));
+}
+void MotionPrior::setImuRotation(const Eigen::Matrix3d& camera_from_imu) {
+  implementation_->setImuRotation(camera_from_imu);
+}
+void MotionPrior::addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3d& angular_velocity) {
+  implementation_->addAngularVelocity(stamp_ns, angular_velocity);
+}
+void MotionPrior::reset() {
+  implementation_->reset();
+}
+MotionPrediction MotionPrior::predict(const ImagePyramid& pyramid, std::int64_t stamp_ns) {
+  return implementation_->predict(pyramid, stamp_ns);
+}
+LineSegment MotionPrior::apply(const MotionPrediction& prediction, const LineSegment& segment,
+                               const Eigen::Vector2d& start_normalized,
+                               const Eigen::Vector2d& end_normalized) const {
+  return implementation_->apply(prediction, segment, start_normalized, end_normalized);
+}
+
+}  // namespace tet_line_tracker

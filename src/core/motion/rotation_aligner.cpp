@@ -1,0 +1,180 @@
+#include "motion/rotation_aligner.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+namespace tet_line_tracker {
+namespace {
+
+constexpr std::size_t kMaxPoints = 600;
+constexpr std::size_t kMinPoints = 40;
+constexpr std::size_t kMinSteepness = 2;  // gray difference over two pixels that is more than noise
+constexpr float kOutlier = 20.0F;         // gray difference from which a point counts no more
+constexpr float kMinStep = 2.5e-5F;       // the iterations end below this step on level 0 [rad]
+
+/// Gray value between pixels; beyond the border the outermost pixel is repeated.
+float interpolate(const cv::Mat& image, float x, float y) {
+  x = std::clamp(x, 0.0F, static_cast<float>(image.cols) - 1.001F);
+  y = std::clamp(y, 0.0F, static_cast<float>(image.rows) - 1.001F);
+  const int column = static_cast<int>(x);
+  const int row = static_cast<int>(y);
+  const float fx = x - static_cast<float>(column);
+  const float fy = y - static_cast<float>(row);
+  const std::uint8_t* upper = image.ptr<std::uint8_t>(row) + column;
+  const std::uint8_t* lower = upper + image.step[0];
+  const float a = static_cast<float>(upper[0]) + fx * static_cast<float>(upper[1] - upper[0]);
+  const float b = static_cast<float>(lower[0]) + fx * static_cast<float>(lower[1] - lower[0]);
+  return a + fy * (b - a);
+}
+
+}  // namespace
+
+void RotationAligner::setCamera(const CameraModel& camera) {
+  const double scale = static_cast<double>(ImagePyramid::scale(level_));
+  const auto halved = [this](int size) {
+    for (int j = 0; j < level_; ++j) size = (size + 1) / 2;
+    return size;
+  };
+  width_ = halved(camera.calibration().width);
+  height_ = halved(camera.calibration().height);
+  points_.clear();
+  movements_.assign(static_cast<std::size_t>(width_ * height_), Eigen::Matrix<float, 2, 3>::Zero());
+  steepness_.assign(movements_.size(), 0);
+  constexpr double kSmallTurn = 1e-3;  // [rad]
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      const std::optional<Eigen::Vector3d> ray = camera.unproject(Eigen::Vector2d(x, y) / scale);
+      if (!ray) continue;
+      Eigen::Matrix<double, 2, 3> movement;
+      bool seen = true;
+      for (int axis = 0; axis < 3 && seen; ++axis) {
+        const Eigen::Matrix3d forward =
+            Eigen::AngleAxisd(kSmallTurn, Eigen::Vector3d::Unit(axis)).toRotationMatrix();
+        const std::optional<Eigen::Vector2d> ahead = camera.project(forward * *ray);
+        const std::optional<Eigen::Vector2d> behind = camera.project(forward.transpose() * *ray);
+        seen = ahead && behind;
+        if (seen) movement.col(axis) = scale * (*ahead - *behind) / (2.0 * kSmallTurn);
+      }
+      if (seen) movements_[static_cast<std::size_t>(y * width_ + x)] = movement.cast<float>();
+    }
+  }
+}
+
+bool RotationAligner::describe(const ImagePyramid& first) {
+  points_.clear();
+  if (first.levels() <= level_) return false;
+  const cv::Mat& image = first.level(level_);
+  if (image.cols != width_ || image.rows != height_) return false;
+
+  // The steepest pixels: a threshold from the distribution of the steepness.
+  for (int y = 1; y + 1 < height_; ++y) {
+    const std::uint8_t* above = image.ptr<std::uint8_t>(y - 1);
+    const std::uint8_t* row = image.ptr<std::uint8_t>(y);
+    const std::uint8_t* below = image.ptr<std::uint8_t>(y + 1);
+    std::uint16_t* steepness = steepness_.data() + y * width_;
+    for (int x = 1; x + 1 < width_; ++x) {
+      steepness[x] =
+          static_cast<std::uint16_t>(std::abs(row[x + 1] - row[x - 1]) + std::abs(below[x] - above[x]));
+    }
+  }
+  std::array<std::size_t, 2 * 255 + 1> histogram{};
+  for (const std::uint16_t steepness : steepness_) ++histogram[steepness];
+  std::size_t threshold = histogram.size();
+  for (std::size_t points = 0; threshold > kMinSteepness && points < kMaxPoints;) {
+    points += histogram[--threshold];
+  }
+  float gray_sum = 0.0F;
+  Eigen::Vector3f slope_sum = Eigen::Vector3f::Zero();
+  for (int y = 1; y + 1 < height_; ++y) {
+    for (int x = 1; x + 1 < width_; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y * width_ + x);
+      if (steepness_[i] < threshold) continue;
+      const std::uint8_t* row = image.ptr<std::uint8_t>(y) + x;
+      const float dx = 0.5F * static_cast<float>(row[1] - row[-1]);
+      const float dy =
+          0.5F * static_cast<float>(image.at<std::uint8_t>(y + 1, x) - image.at<std::uint8_t>(y - 1, x));
+      Point point;
+      point.place = Eigen::Vector2f(static_cast<float>(x), static_cast<float>(y));
+      point.movement = movements_[i];
+      point.slope = point.movement.transpose() * Eigen::Vector2f(dx, dy);
+      point.gray = static_cast<float>(*row);
+      gray_sum += point.gray;
+      slope_sum += point.slope;
+      points_.push_back(point);
+    }
+  }
+  if (points_.size() < kMinPoints) {
+    points_.clear();
+    return false;
+  }
+  // Take from the slopes what a change of gain and offset would explain.
+  const float count = static_cast<float>(points_.size());
+  float gray_square = 0.0F;
+  Eigen::Vector3f gray_slope = Eigen::Vector3f::Zero();
+  for (Point& point : points_) {
+    point.gray -= gray_sum / count;
+    point.slope -= slope_sum / count;
+    gray_square += point.gray * point.gray;
+    gray_slope += point.gray * point.slope;
+  }
+  gray_square_ = gray_square / count;
+  Eigen::Matrix3f normal = Eigen::Matrix3f::Zero();
+  for (Point& point : points_) {
+    point.slope -= gray_slope * (point.gray / (gray_square + 1.0F));
+    normal += point.slope * point.slope.transpose();
+  }
+  // A direction that the texture does not show stays where it starts.
+  normal.diagonal().array() += 1e-4F * normal.trace() + 1.0F;
+  normal_inverse_ = normal.inverse();
+  return true;
+}
+
+RotationAligner::Light RotationAligner::read(const cv::Mat& second, const Eigen::Vector3f& turn) {
+  values_.resize(points_.size());
+  float sum = 0.0F;
+  float with_gray = 0.0F;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Point& point = points_[i];
+    const Eigen::Vector2f place = point.place + point.movement * turn;
+    values_[i] = interpolate(second, place.x(), place.y());
+    sum += values_[i];
+    with_gray += values_[i] * point.gray;
+  }
+  const float count = static_cast<float>(points_.size());
+  const float gain = std::clamp(with_gray / (count * gray_square_ + 1.0F), 0.3F, 3.0F);
+  return {1.0F / gain, sum / count};
+}
+
+float RotationAligner::cost(const ImagePyramid& second, const Eigen::Vector3f& turn) {
+  const Light light = read(second.level(level_), turn);
+  float sum = 0.0F;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const float difference = (values_[i] - light.offset) * light.shrink - points_[i].gray;
+    sum += std::min(kOutlier, std::abs(difference));
+  }
+  return sum / static_cast<float>(points_.size());
+}
+
+Eigen::Vector3f RotationAligner::align(const ImagePyramid& second, const Eigen::Vector3f& start,
+                                       int max_iterations) {
+  Eigen::Vector3f turn = start;
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    const Light light = read(second.level(level_), turn);
+    Eigen::Vector3f slope = Eigen::Vector3f::Zero();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const float difference = (values_[i] - light.offset) * light.shrink - points_[i].gray;
+      slope += points_[i].slope * std::clamp(difference, -kOutlier, kOutlier);
+    }
+    const Eigen::Vector3f step = -(normal_inverse_ * slope);
+    turn += step;
+    if (step.norm() * ImagePyramid::scale(level_) < kMinStep) break;
+  }
+  return turn;
+}
+
+}  // namespace tet_line_tracker

@@ -1,0 +1,187 @@
+#include "tet_line_tracker/refinement/line_refiner.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kernels/kernels.h"
+
+namespace tet_line_tracker {
+namespace {
+
+constexpr int kMaxSamples = 48;
+constexpr int kMinSamples = 6;
+constexpr float kSampleSpacing = 2.0F;     // along the line, more on long ones [px]
+constexpr float kOnEdge = 1.0F;            // a sample this near the fitted line lies on the edge [px]
+constexpr float kMinContrastShare = 0.3F;  // of the contrast of the edge before
+constexpr float kMinSlope = 0.8F;          // slower slopes are noise in any picture [gray / px]
+constexpr float kPeakShare = 0.3F;     // of the slope of the peak: what is under it does not pull its middle
+constexpr float kSigmaFloor = 0.025F;  // what sampling and rounding leave on a perfect edge [px]
+
+/// What profiles across the line found, from start to end; room for whole vectors.
+struct Samples {
+  static constexpr std::size_t kCapacity = kMaxSamples + kernels::kLanes;
+  std::array<float, kCapacity> places;   ///< along the line, -1 at start to 1 at end
+  std::array<float, kCapacity> offsets;  ///< of the edge from the line, along the normal [px]
+  std::array<float, kCapacity>
+      slopes;  ///< of the edge, positive when of the right polarity [gray / px]; 0: none found
+  int count{0};
+};
+
+/// Profiles along the image axis that is nearer to the normal: whole pixels, no interpolation.
+class ProfileSampler {
+ public:
+  ProfileSampler(const cv::Mat& gray, const LineSegment& line, float polarity, float search_px)
+      : gray_(gray), length_(line.length()) {
+    const Eigen::Vector2f direction = line.direction();
+    flat_ = std::abs(direction.x()) >= std::abs(direction.y());
+    start_main_ = flat_ ? line.start.x() : line.start.y();
+    start_cross_ = flat_ ? line.start.y() : line.start.x();
+    main_per_along_ = flat_ ? direction.x() : direction.y();
+    cross_per_main_ = (flat_ ? direction.y() : direction.x()) / main_per_along_;
+    const Eigen::Vector2f normal = line.normal();
+    normal_share_ = flat_ ? normal.y() : normal.x();
+    const int reach = static_cast<int>(std::ceil(search_px / std::abs(normal_share_)));
+    reach_ = std::min(reach, (kernels::kMaxProfile - 3) / 2);
+    batch_.step = flat_ ? static_cast<std::ptrdiff_t>(gray.step[0]) : 1;
+    batch_.count = 2 * reach_ + 3;
+    // Along the profile's axis the gray values rise towards the normal's side.
+    batch_.polarity = normal_share_ * polarity > 0.0F ? 1.0F : -1.0F;
+    batch_.distance_scale = normal_share_ / search_px;
+    batch_.peak_share = kPeakShare;
+  }
+
+  /// Takes `count` samples evenly along the line; those whose profile leaves the image are left out.
+  void take(int count, Samples& samples) {
+    const std::size_t wanted = static_cast<std::size_t>(count);
+    const float spacing = length_ / static_cast<float>(count);
+    for (std::size_t i = 0; i < wanted; ++i) {
+      const float along = (static_cast<float>(i) + 0.5F) * spacing;
+      const int main = nearestPixel(start_main_ + along * main_per_along_);
+      const float cross = start_cross_ + (static_cast<float>(main) - start_main_) * cross_per_main_;
+      const int begin = nearestPixel(cross) - reach_ - 1;
+      samples.places[i] = 2.0F * along / length_ - 1.0F;
+      mains_[i] = main;
+      begins_[i] = begin;
+      centres_[i] = cross - static_cast<float>(begin);
+    }
+    // The line is straight: with both ends inside, all is.
+    std::size_t kept = wanted;
+    if (!inside(0) || !inside(wanted - 1)) {
+      kept = 0;
+      for (std::size_t i = 0; i < wanted; ++i) {
+        if (!inside(i)) continue;
+        samples.places[kept] = samples.places[i];
+        mains_[kept] = mains_[i];
+        begins_[kept] = begins_[i];
+        centres_[kept++] = centres_[i];
+      }
+    }
+    samples.count = static_cast<int>(kept);
+    for (std::size_t i = 0; i < kept; i += kernels::kLanes) find(i, kept, samples);
+    for (std::size_t i = 0; i < kept; ++i) {
+      samples.offsets[i] = (samples.offsets[i] - centres_[i]) * normal_share_;
+    }
+    for (std::size_t i = kept; i < kept + kernels::kLanes; ++i) {
+      samples.places[i] = samples.offsets[i] = 0.0F;
+      samples.slopes[i] = -1.0F;
+    }
+  }
+
+ private:
+  /// Rounds what lies in an image or not too far left of it; what is farther stays outside.
+  static int nearestPixel(float place) {
+    constexpr int kShift = 1 << 12;
+    return static_cast<int>(place + (static_cast<float>(kShift) + 0.5F)) - kShift;
+  }
+
+  bool inside(std::size_t i) const {
+    const int main_size = flat_ ? gray_.cols : gray_.rows;
+    const int cross_size = flat_ ? gray_.rows : gray_.cols;
+    return mains_[i] >= 0 && mains_[i] < main_size && begins_[i] >= 0 &&
+           begins_[i] + batch_.count <= cross_size;
+  }
+
+  /// Eight profiles from number `first` on; the last one fills up.
+  void find(std::size_t first, std::size_t count, Samples& samples) {
+    for (std::size_t lane = 0; lane < kernels::kLanes; ++lane) {
+      const std::size_t i = std::min(first + lane, count - 1);
+      batch_.pixels[lane] = flat_ ? gray_.ptr<std::uint8_t>(begins_[i]) + mains_[i]
+                                  : gray_.ptr<std::uint8_t>(mains_[i]) + begins_[i];
+      batch_.centre[lane] = centres_[i];
+    }
+    kernels::active().findEdges(batch_, samples.offsets.data() + first, samples.slopes.data() + first);
+  }
+
+  const cv::Mat& gray_;
+  float length_;
+  bool flat_;                       ///< the main axis is x
+  float start_main_, start_cross_;  ///< [px]
+  float main_per_along_, cross_per_main_;
+  float normal_share_;
+  int reach_;
+  kernels::ProfileBatch batch_{};
+  std::array<int, Samples::kCapacity> mains_, begins_;
+  std::array<float, Samples::kCapacity> centres_;
+};
+
+/// Iteratively re-weighted least squares with Tukey's weights, from wide to narrow.
+kernels::OffsetFit fitOffsets(const kernels::EdgeSamples& samples, float min_slope) {
+  kernels::OffsetFit fit;
+  for (const float width : {4.0F, 3.0F, 2.0F, 1.5F, 1.5F}) {
+    std::array<float, 5> sums;
+    kernels::active().sumOffsets(samples, fit, width, min_slope, sums.data());
+    const auto [w, wp, wpp, wo, wpo] = sums;
+    const float determinant = w * wpp - wp * wp;
+    if (determinant < 1e-3F) break;
+    fit.offset = (wpp * wo - wp * wpo) / determinant;
+    fit.turn = (w * wpo - wp * wo) / determinant;
+  }
+  return fit;
+}
+
+}  // namespace
+
+float LineRefiner::contrastOf(const cv::Mat& gray, const LineSegment& line) const {
+  constexpr int kCount = 2 * kernels::kLanes;
+  ProfileSampler sampler(gray, line, 1.0F, 1.5F);
+  Samples samples;
+  sampler.take(kCount, samples);
+  if (samples.count < kCount / 2) return 0.0F;
+  const auto middle = samples.slopes.begin() + samples.count / 2;
+  std::nth_element(samples.slopes.begin(), middle, samples.slopes.begin() + samples.count);
+  return *middle;
+}
+
+EdgeFit LineRefiner::fit(const cv::Mat& gray, const LineSegment& line, float contrast) const {
+  EdgeFit result;
+  result.segment = line;
+  const float length = line.length();
+  if (!(length > 1.0F)) return result;
+  ProfileSampler sampler(gray, line, contrast, static_cast<float>(parameters_.search_px));
+  const float min_slope = std::max(kMinSlope, kMinContrastShare * std::abs(contrast));
+
+  const int wanted = std::clamp(static_cast<int>(length / kSampleSpacing), kMinSamples, kMaxSamples);
+  Samples samples;
+  sampler.take(wanted, samples);
+  if (samples.count < kMinSamples) return result;
+
+  const kernels::EdgeSamples found{samples.places.data(), samples.offsets.data(), samples.slopes.data(),
+                                   samples.count};
+  const kernels::OffsetFit fit = fitOffsets(found, min_slope);
+  std::array<float, 3> sums;
+  kernels::active().sumSupport(found, fit, kOnEdge, min_slope, sums.data());
+  const auto [supported, slopes, squares] = sums;
+  if (supported < 4.0F) return result;
+  result.support = supported / static_cast<float>(samples.count);
+  if (result.support < static_cast<float>(parameters_.min_support)) return result;
+
+  result.contrast = std::copysign(slopes / supported, contrast);
+  const float variance = squares / (supported - 2.0F);
+  result.sigma_px = std::sqrt(kSigmaFloor * kSigmaFloor + variance / supported);
+  const Eigen::Vector2f normal = line.normal();
+  result.segment = {line.start + fit.at(-1.0F) * normal, line.end + fit.at(1.0F) * normal};
+  return result;
+}
+
+}  // namespace tet_line_tracker

@@ -1,0 +1,40 @@
+#include "detection/candidate_selector.h"
+
+#include <gtest/gtest.h>
+
+namespace tet_line_tracker {
+namespace {
+
+LineSegment horizontal(float x, float y, float length) {
+  return {{x, y}, {x + length, y}};
+}
+
+TEST(SpreadChooser, GivesEachCandidateOnce) {
+  const std::vector<LineSegment> candidates{horizontal(10, 10, 40), horizontal(300, 200, 60)};
+  SpreadChooser chooser;
+  chooser.start(800, 600, candidates);
+  EXPECT_EQ(chooser.next(), &candidates[1]);
+  EXPECT_EQ(chooser.next(), &candidates[0]);
+  EXPECT_EQ(chooser.next(), nullptr);
+}
+
+TEST(SpreadChooser, PrefersAnEmptyPartOfTheImageToALongerLineInAFullOne) {
+  const std::vector<LineSegment> candidates{horizontal(10, 20, 80), horizontal(610, 420, 50)};
+  SpreadChooser chooser;
+  chooser.start(800, 600, candidates);
+  for (int i = 0; i < 5; ++i) chooser.add(horizontal(10, 40.0F + 10.0F * static_cast<float>(i), 80));
+  EXPECT_EQ(chooser.next(), &candidates[1]);
+}
+
+TEST(SpreadChooser, ALineThatWasTakenMakesItsNeighboursWait) {
+  const std::vector<LineSegment> candidates{horizontal(10, 20, 80), horizontal(10, 60, 80),
+                                            horizontal(610, 420, 60)};
+  SpreadChooser chooser;
+  chooser.start(800, 600, candidates);
+  EXPECT_EQ(chooser.next(), &candidates[0]);
+  chooser.add(candidates[0]);
+  EXPECT_EQ(chooser.next(), &candidates[2]);
+}
+
+}  // namespace
+}  // namespace tet_line_tracker

@@ -1,0 +1,220 @@
+#include "tet_line_tracker/flow/endpoint_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "synthetic_images.h"
+
+namespace tet_line_tracker {
+namespace {
+
+constexpr int kWidth = 320;
+constexpr int kHeight = 240;
+const LineSegment kLine{{100.4F, 80.7F}, {201.3F, 150.2F}};
+
+EndpointTrackerParameters published() {
+  return asPublished({}).flow;
+}
+
+EndpointFlow followShift(const EndpointTrackerParameters& parameters, const Eigen::Vector2f& shift) {
+  const EndpointTracker tracker(parameters);
+  const cv::Mat first_image = smoothImage(kWidth, kHeight, {0.0F, 0.0F});
+  const cv::Mat second_image = smoothImage(kWidth, kHeight, shift);
+  ImagePyramid first, second;
+  first.build(first_image, parameters.pyramid_levels);
+  second.build(second_image, parameters.pyramid_levels);
+  LineTemplate patches;
+  tracker.describe(first, kLine, patches);
+  return tracker.track(patches, second, kLine);
+}
+
+TEST(EndpointTracker, RecoversShiftsOfATenthToTenPixelsToWithinATwentieth) {
+  for (const float length : {0.1F, 0.25F, 0.5F, 0.9F, 1.0F, 2.3F, 3.5F, 5.0F, 7.7F, 10.0F}) {
+    for (const Eigen::Vector2f& direction : {Eigen::Vector2f(1.0F, 0.0F), Eigen::Vector2f(0.0F, 1.0F),
+                                             Eigen::Vector2f(0.6F, -0.8F), Eigen::Vector2f(-0.8F, -0.6F)}) {
+      const Eigen::Vector2f shift = length * direction;
+      const EndpointFlow flow = followShift(published(), shift);
+      ASSERT_EQ(flow.status, EndpointFlow::Status::kTracked) << "shift " << shift.transpose();
+      EXPECT_LT((flow.segment.start - kLine.start - shift).norm(), 0.05F) << "shift " << shift.transpose();
+      EXPECT_LT((flow.segment.end - kLine.end - shift).norm(), 0.05F) << "shift " << shift.transpose();
+    }
+  }
+}
+
+TEST(EndpointTracker, EndpointsScaleByTwoBetweenLevelsWithoutAnOffset) {
+  // With one iteration on each level the coarse estimate must arrive at the right place of the fine one: any
+  // wrong factor or half-pixel shift between levels would stay as an error of half a pixel and more.
+  EndpointTrackerParameters parameters = published();
+  parameters.pyramid_levels = 4;
+  for (const float shift : {-2.0F, 0.0F, 1.5F}) {
+    const EndpointFlow flow = followShift(parameters, {shift, shift});
+    ASSERT_EQ(flow.status, EndpointFlow::Status::kTracked);
+    EXPECT_LT((flow.segment.start - kLine.start - Eigen::Vector2f(shift, shift)).norm(), 0.03F);
+  }
+}
+
+TEST(EndpointTracker, ALargeShiftNeedsThePyramid) {
+  EndpointTrackerParameters one_level = published();
+  one_level.pyramid_levels = 1;
+  const Eigen::Vector2f shift(9.0F, -9.0F);
+  const EndpointFlow without = followShift(one_level, shift);
+  const EndpointFlow with = followShift(published(), shift);
+  EXPECT_EQ(with.status, EndpointFlow::Status::kTracked);
+  EXPECT_LT((with.segment.start - kLine.start - shift).norm(), 0.05F);
+  EXPECT_GT((without.segment.start - kLine.start - shift).norm(), 1.0F);
+}
+
+TEST(EndpointTracker, ALineWhoseGrayValuesChangeIsAnOutlierHoweverManyIterations) {
+  const EndpointTracker tracker(published());
+  const cv::Mat image = smoothImage(kWidth, kHeight, {0.0F, 0.0F});
+  ImagePyramid first, second;
+  first.build(image, 3);
+  LineTemplate patches;
+  tracker.describe(first, kLine, patches);
+  // A coarse checkerboard over the picture adds a residual that no small movement takes away.
+  const auto followUnder = [&](int gray) {
+    cv::Mat disturbed = image.clone();
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x)
+        disturbed.at<std::uint8_t>(y, x) += ((x / 4 + y / 4) % 2 == 0 ? gray : -gray);
+    }
+    second.build(disturbed, 3);
+    return tracker.track(patches, second, kLine);
+  };
+  const EndpointFlow lost = followUnder(12);  // 12 / 255 = 0.047 is over the threshold of 0.02
+  EXPECT_EQ(lost.status, EndpointFlow::Status::kHighResidual);
+  EXPECT_GT(lost.residual, 0.02F);
+  EXPECT_EQ(followUnder(3).status, EndpointFlow::Status::kTracked);  // 0.012 is under it
+}
+
+TEST(EndpointTracker, BothEndpointsMustMeetTheResidual) {
+  const EndpointTracker tracker(published());
+  const cv::Mat image = smoothImage(kWidth, kHeight, {0.0F, 0.0F});
+  cv::Mat half_covered = image.clone();
+  cv::circle(half_covered, cv::Point(201, 150), 12, cv::Scalar(255), cv::FILLED);
+  ImagePyramid first, second;
+  first.build(image, 3);
+  second.build(half_covered, 3);
+  LineTemplate patches;
+  tracker.describe(first, kLine, patches);
+  EXPECT_NE(tracker.track(patches, second, kLine).status, EndpointFlow::Status::kTracked);
+}
+
+TEST(EndpointTracker, TheIterationsEndAtTheirLimit) {
+  EndpointTrackerParameters once = published();
+  once.pyramid_levels = 1;
+  once.max_iterations = 1;
+  EndpointTrackerParameters often = once;
+  often.max_iterations = 10;
+  const Eigen::Vector2f shift(1.6F, -1.1F);
+  const float error_once = (followShift(once, shift).segment.start - kLine.start - shift).norm();
+  const float error_often = (followShift(often, shift).segment.start - kLine.start - shift).norm();
+  EXPECT_GT(error_once, 2.0F * error_often);
+  EXPECT_LT(error_often, 0.05F);
+}
+
+TEST(EndpointTracker, WithoutTextureThereIsNoSolution) {
+  const EndpointTracker tracker(published());
+  const cv::Mat image(kHeight, kWidth, CV_8UC1, cv::Scalar(100));
+  ImagePyramid pyramid;
+  pyramid.build(image, 3);
+  LineTemplate patches;
+  tracker.describe(pyramid, kLine, patches);
+  EXPECT_EQ(tracker.track(patches, pyramid, kLine).status, EndpointFlow::Status::kNoSolution);
+}
+
+TEST(EndpointTracker, AnEndpointThatLeavesTheImageIsSaidToBeOutside) {
+  const EndpointTracker tracker(published());
+  const Eigen::Vector2f shift(-9.0F, 0.0F);
+  const cv::Mat first_image = smoothImage(kWidth, kHeight, {0.0F, 0.0F});
+  const cv::Mat second_image = smoothImage(kWidth, kHeight, shift);
+  ImagePyramid first, second;
+  first.build(first_image, 3);
+  second.build(second_image, 3);
+  const LineSegment at_border{{4.0F, 80.0F}, {100.0F, 90.0F}};
+  LineTemplate patches;
+  tracker.describe(first, at_border, patches);
+  EXPECT_EQ(tracker.track(patches, second, at_border).status, EndpointFlow::Status::kOutside);
+}
+
+/// The joint estimate down to the full image, without the re-fit that follows it in the tracker.
+EndpointTrackerParameters joint() {
+  EndpointTrackerParameters parameters;
+  parameters.finest_level = 0;
+  return parameters;
+}
+
+TEST(JointEstimate, RecoversShiftsToWithinATenth) {
+  for (const float length : {0.3F, 1.0F, 3.5F, 10.0F}) {
+    const Eigen::Vector2f shift = length * Eigen::Vector2f(0.6F, -0.8F);
+    const EndpointFlow flow = followShift(joint(), shift);
+    ASSERT_NE(flow.status, EndpointFlow::Status::kNoSolution) << length;
+    EXPECT_LT((flow.segment.start - kLine.start - shift).norm(), 0.1F) << length;
+    EXPECT_LT((flow.segment.end - kLine.end - shift).norm(), 0.1F) << length;
+  }
+}
+
+EndpointFlow followInto(const EndpointTrackerParameters& parameters, const cv::Mat& first_image,
+                        const cv::Mat& second_image) {
+  const EndpointTracker tracker(parameters);
+  ImagePyramid first, second;
+  first.build(first_image, parameters.pyramid_levels);
+  second.build(second_image, parameters.pyramid_levels);
+  LineTemplate patches;
+  tracker.describe(first, kLine, patches);
+  return tracker.track(patches, second, kLine);
+}
+
+TEST(JointEstimate, AChangeOfGainAndOffsetDoesNotMoveALine) {
+  const Eigen::Vector2f shift(2.0F, 1.0F);
+  const cv::Mat first = smoothImage(kWidth, kHeight, {0.0F, 0.0F});
+  cv::Mat second;
+  smoothImage(kWidth, kHeight, shift).convertTo(second, -1, 0.6, 30.0);
+  const auto errorOf = [&](const EndpointTrackerParameters& parameters) {
+    const EndpointFlow flow = followInto(parameters, first, second);
+    return std::max((flow.segment.start - kLine.start - shift).norm(),
+                    (flow.segment.end - kLine.end - shift).norm());
+  };
+  EndpointTrackerParameters without = joint();
+  without.gain_and_offset = false;
+  EXPECT_LT(errorOf(joint()), 0.1F);
+  EXPECT_GT(errorOf(without), 0.3F);
+}
+
+TEST(JointEstimate, ACoveredEndDoesNotPullTheLineAway) {
+  const Eigen::Vector2f shift(1.5F, -1.0F);
+  const cv::Mat first = smoothImage(kWidth, kHeight, {0.0F, 0.0F});
+  cv::Mat second = smoothImage(kWidth, kHeight, shift);
+  cv::circle(second, cv::Point(203, 149), 14, cv::Scalar(250), cv::FILLED);
+  const EndpointFlow flow = followInto(joint(), first, second);
+  ASSERT_NE(flow.status, EndpointFlow::Status::kNoSolution);
+  EXPECT_LT((flow.segment.start - kLine.start - shift).norm(), 0.2F);
+  EXPECT_LT(std::abs(flow.segment.distance(kLine.middle() + shift)), 0.2F);
+}
+
+TEST(JointEstimate, AlongABareEdgeEndpointsHardlySlide) {
+  // Nothing but an edge: across it the place is known, along it only the expectation is.
+  const auto edge = [](float shift) {
+    cv::Mat image(kHeight, kWidth, CV_8UC1);
+    const Eigen::Vector2f normal = kLine.normal();
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const float distance =
+            normal.dot(Eigen::Vector2f(static_cast<float>(x), static_cast<float>(y)) - kLine.start) - shift;
+        image.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(120.0F + 60.0F * std::erf(distance));
+      }
+    }
+    return image;
+  };
+  const EndpointFlow flow = followInto(joint(), edge(0.0F), edge(2.0F));
+  EXPECT_NEAR(kLine.distance(flow.segment.start), 2.0F, 0.1F);
+  EXPECT_NEAR(kLine.distance(flow.segment.end), 2.0F, 0.1F);
+  EXPECT_NEAR(kLine.along(flow.segment.start), 0.0F, 4.0F);
+  EXPECT_NEAR(kLine.along(flow.segment.end), kLine.length(), 4.0F);
+}
+
+}  // namespace
+}  // namespace tet_line_tracker

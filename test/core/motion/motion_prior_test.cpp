@@ -1,0 +1,208 @@
+#include "tet_line_tracker/motion/motion_prior.h"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+namespace tet_line_tracker {
+namespace {
+
+constexpr int kWidth = 752;
+constexpr int kHeight = 480;
+constexpr std::int64_t kMs = 1000000;
+constexpr std::int64_t kPeriod = 50 * kMs;
+constexpr double kDegree = M_PI / 180.0;
+const Eigen::Vector2d kUnknown = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+
+/// A lens as EuRoC's.
+std::shared_ptr<const CameraModel> camera() {
+  CameraCalibration calibration;
+  calibration.model = "plumb_bob";
+  calibration.width = kWidth;
+  calibration.height = kHeight;
+  calibration.fx = 458.0;
+  calibration.fy = 457.0;
+  calibration.cx = 367.0;
+  calibration.cy = 248.0;
+  calibration.distortion = {-0.283, 0.074, 0.0002, 0.00002, 0.0};
+  return makeCameraModel(calibration);
+}
+
+/// Gray value of a far world, smooth enough for the coarsest level of the pyramid.
+double farGray(const Eigen::Vector3d& direction) {
+  const double x = 450.0 * direction.x() / direction.z();
+  const double y = 450.0 * direction.y() / direction.z();
+  return 128.0 + 30.0 * std::sin(0.05 * x + 0.02 * y) + 30.0 * std::sin(0.045 * y - 0.015 * x + 1.0) +
+         20.0 * std::sin(0.09 * x - 0.04 * y + 2.0) + 20.0 * std::sin(0.03 * x + 0.085 * y);
+}
+
+/// The far world seen by the camera whose directions turned by `rotation` since it looked straight ahead.
+ImagePyramid view(const Eigen::Matrix3d& rotation) {
+  static const std::shared_ptr<const CameraModel> lens = camera();
+  cv::Mat image(kHeight, kWidth, CV_8UC1, cv::Scalar(128));
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const std::optional<Eigen::Vector3d> ray = lens->unproject(Eigen::Vector2d(x, y));
+      if (!ray) continue;
+      image.at<std::uint8_t>(y, x) =
+          static_cast<std::uint8_t>(std::lround(farGray(rotation.transpose() * *ray)));
+    }
+  }
+  ImagePyramid pyramid;
+  pyramid.build(image, MotionPrior::kPyramidLevels);
+  return pyramid;
+}
+
+Eigen::Matrix3d turned(const Eigen::Vector3d& degrees) {
+  const Eigen::Vector3d turn = kDegree * degrees;
+  if (turn.norm() == 0.0) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+}
+
+double degreesBetween(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+  return Eigen::AngleAxisd(a.transpose() * b).angle() / kDegree;
+}
+
+MotionPriorParameters prior(const std::string& name) {
+  MotionPriorParameters parameters;
+  parameters.prior = name;
+  return parameters;
+}
+
+/// Pose of the IMU in the camera that is neither of the two's axes.
+const Eigen::Matrix3d kCameraFromImu = turned({20.0, -70.0, 110.0});
+
+/// Samples of a gyroscope, one every 5 ms, while directions in the camera turn by `degrees` in each period.
+void addGyro(MotionPrior& prior, std::int64_t first_ms, std::int64_t last_ms,
+             const Eigen::Vector3d& degrees) {
+  const Eigen::Vector3d velocity = -20.0 * kDegree * (kCameraFromImu.transpose() * degrees);
+  for (std::int64_t t = first_ms; t <= last_ms; t += 5) prior.addAngularVelocity(t * kMs, velocity);
+}
+
+const Eigen::Vector3d kFastTurns[] = {
+    {0.0, 3.0, 0.0}, {2.5, -2.0, 0.0}, {0.0, 0.0, 4.0}, {-1.0, 2.5, -3.0}, {0.3, 0.2, -0.3}};
+
+TEST(MotionPrior, FindsATurnInTheImagesToATenthOfADegree) {
+  for (const Eigen::Vector3d& degrees : kFastTurns) {
+    MotionPrior images(prior("image"));
+    images.setCamera(camera());
+    EXPECT_STREQ(images.predict(view(turned({0, 0, 0})), 0).sourceName(), "none");
+    const MotionPrediction prediction = images.predict(view(turned(degrees)), kPeriod);
+    EXPECT_STREQ(prediction.sourceName(), "image") << degrees.transpose();
+    EXPECT_LT(degreesBetween(prediction.rotation, turned(degrees)), 0.1) << degrees.transpose();
+    EXPECT_NEAR(prediction.angle() / kDegree, degrees.norm(), 0.1);
+  }
+}
+
+TEST(MotionPrior, PredictsWhereAFarLineWillBe) {
+  const Eigen::Matrix3d rotation = turned({-1.0, 2.5, -3.0});
+  MotionPrior images(prior("image"));
+  images.setCamera(camera());
+  images.predict(view(turned({0, 0, 0})), 0);
+  const MotionPrediction prediction = images.predict(view(rotation), kPeriod);
+  const LineSegment line{{200.0F, 150.0F}, {450.0F, 300.0F}};
+  const LineSegment expected = images.apply(prediction, line, kUnknown, kUnknown);
+  const auto truth = [&](const Eigen::Vector2f& point) {
+    return *camera()->project(rotation * *camera()->unproject(point.cast<double>()));
+  };
+  EXPECT_LT((expected.start.cast<double>() - truth(line.start)).norm(), 1.0);
+  EXPECT_LT((expected.end.cast<double>() - truth(line.end)).norm(), 1.0);
+  EXPECT_GT((expected.start - line.start).norm(), 15.0F);
+}
+
+TEST(MotionPrior, AssumesAPinholeWithoutCalibration) {
+  const Eigen::Matrix3d rotation = turned({1.5, -2.0, 0.0});
+  MotionPrior images(prior("auto"));
+  images.predict(view(turned({0, 0, 0})), 0);
+  const MotionPrediction prediction = images.predict(view(rotation), kPeriod);
+  EXPECT_STREQ(prediction.sourceName(), "image");
+  const LineSegment line{{300.0F, 200.0F}, {450.0F, 300.0F}};
+  const LineSegment expected = images.apply(prediction, line, kUnknown, kUnknown);
+  for (const auto& [from, to] : {std::pair{line.start, expected.start}, {line.end, expected.end}}) {
+    const Eigen::Vector2d truth = *camera()->project(rotation * *camera()->unproject(from.cast<double>()));
+    EXPECT_LT((to.cast<double>() - truth).norm(), 3.0);
+    EXPECT_GT((from.cast<double>() - truth).norm(), 15.0);
+  }
+}
+
+TEST(MotionPrior, TakesTheImuWhereItIsRight) {
+  for (const char* name : {"imu", "auto"}) {
+    for (const Eigen::Vector3d& degrees : kFastTurns) {
+      MotionPrior both(prior(name));
+      both.setCamera(camera());
+      both.setImuRotation(kCameraFromImu);
+      addGyro(both, -5, 55, degrees);
+      both.predict(view(turned({0, 0, 0})), 0);
+      const MotionPrediction prediction = both.predict(view(turned(degrees)), kPeriod);
+      EXPECT_STREQ(prediction.sourceName(), "imu") << name << ", " << degrees.transpose();
+      EXPECT_LT(degreesBetween(prediction.rotation, turned(degrees)), 0.1);
+    }
+  }
+}
+
+TEST(MotionPrior, AWrongImuIsRefusedAndNeverWorseThanNone) {
+  for (const char* name : {"imu", "auto"}) {
+    for (const Eigen::Vector3d& degrees : kFastTurns) {
+      MotionPrior both(prior(name));
+      both.setCamera(camera());
+      both.setImuRotation(kCameraFromImu);
+      addGyro(both, -5, 55, Eigen::Vector3d(-degrees));  // as with an extrinsic turned by half a turn
+      both.predict(view(turned({0, 0, 0})), 0);
+      const MotionPrediction prediction = both.predict(view(turned(degrees)), kPeriod);
+      EXPECT_STRNE(prediction.sourceName(), "imu") << degrees.transpose();
+      const double without = degrees.norm();
+      const double with = degreesBetween(prediction.rotation, turned(degrees));
+      if (std::string(name) == "imu") {
+        EXPECT_LE(with, without + 1e-6);
+      } else {
+        EXPECT_LT(with, 0.1);
+      }
+    }
+  }
+}
+
+TEST(MotionPrior, AStandingCameraIsNotTurnedByAWrongImu) {
+  MotionPrior both(prior("auto"));
+  both.setCamera(camera());
+  both.setImuRotation(kCameraFromImu);
+  addGyro(both, -5, 55, {0.0, 3.0, 0.0});
+  both.predict(view(turned({0, 0, 0})), 0);
+  EXPECT_LT(both.predict(view(turned({0, 0, 0})), kPeriod).angle(), 0.02 * kDegree);
+}
+
+TEST(MotionPrior, TheImageStandsInWhereImuSamplesOrTheExtrinsicAreMissing) {
+  const Eigen::Vector3d degrees(2.5, -2.0, 0.0);
+  for (const char* name : {"imu", "auto"}) {
+    MotionPrior late(prior(name));
+    late.setCamera(camera());
+    late.setImuRotation(kCameraFromImu);
+    addGyro(late, -5, 45, degrees);  // the last one is before the image
+    late.predict(view(turned({0, 0, 0})), 0);
+    EXPECT_STREQ(late.predict(view(turned(degrees)), kPeriod).sourceName(), "image");
+
+    MotionPrior without(prior(name));
+    without.setCamera(camera());
+    addGyro(without, -5, 55, degrees);
+    without.predict(view(turned({0, 0, 0})), 0);
+    EXPECT_STREQ(without.predict(view(turned(degrees)), kPeriod).sourceName(), "image");
+  }
+}
+
+TEST(MotionPrior, NeitherNoneNorTheFirstImageAfterAResetPredictsMotion) {
+  MotionPrior none(prior("none"));
+  none.predict(view(turned({0, 0, 0})), 0);
+  EXPECT_EQ(none.predict(view(turned({0, 3, 0})), kPeriod).angle(), 0.0);
+
+  MotionPrior images(prior("image"));
+  images.setCamera(camera());
+  images.predict(view(turned({0, 0, 0})), 0);
+  images.reset();
+  EXPECT_EQ(images.predict(view(turned({0, 3, 0})), kPeriod).angle(), 0.0);
+}
+
+}  // namespace
+}  // namespace tet_line_tracker
