@@ -14,14 +14,11 @@ results=$(cd "$1" && pwd)
 seeds=${2:-1}
 seconds=${3:-20}
 . "$(dirname "$0")/environment.sh"
+. scripts/regimes.sh
 scripts/build.sh
 sourceSetup "$build/devel/setup.bash"
 tools=$build/devel/lib/tet_line_tracker
 
-declare -A flights=(
-  [slow]="--motion slow" [fast]="--motion fast" [corridor]="--motion corridor" [low]="--motion slow --light low"
-  [gain]="--motion slow --light gain_jumps" [shake]="--motion shake" [rotation]="--motion rotation"
-  [moving]="--motion slow --moving-object" [all]="--motion fast --light low,gain_jumps")
 regimes=${4:-slow fast corridor low gain shake rotation moving all}
 
 # judge NAME REGIMES [track_bag options]: tracks the flights and prints one table.
@@ -52,11 +49,10 @@ judge() {
   [ $# -lt 4 ] || exit 0
   hard="fast corridor gain shake"
   judge no_prior "$hard" --set prior=none
-  judge no_joint_endpoints "$hard" --set joint_endpoints=false --set finest_level=0
   judge no_gain_and_offset "$hard" --set gain_and_offset=false
   judge no_robust_patches "$hard" --set robust_patches=false
   judge no_refine "$hard" --set refine=false --set finest_level=0
   judge image_prior "$hard" --set prior=image
-  judge no_parallax "$hard" --set keep_parallax=false
+  judge no_parallax "$hard" --set predict_parallax=false
   judge no_edge_offset "$hard" --set max_edge_offset=10
 } | tee "$results/tables.txt"

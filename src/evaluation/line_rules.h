@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "tet_line_tracker/tracking/line_tracker.h"
+#include "tet_line_tracker/tracking/line_frame.h"
 
 namespace tet_line_tracker {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "tet_line_tracker/tracking/line_tracker.h"
+#include "tet_line_tracker/tracking/line_frame.h"
 #include "truth.h"
 
 namespace tet_line_tracker {

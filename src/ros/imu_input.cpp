@@ -17,11 +17,6 @@ constexpr std::size_t kMaxStretches = 4;     // if no image comes
 
 }  // namespace
 
-bool usesImu(const LineTrackerParameters& parameters) {
-  const std::string& prior = parameters.motion.prior;
-  return parameters.method != "paper" && (prior == "imu" || prior == "auto");
-}
-
 std::optional<Eigen::Matrix3d> imuRotation(const tf2::BufferCore& frames, const std::string& imu_frame,
                                            const std::string& camera_frame) {
   try {

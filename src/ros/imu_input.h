@@ -15,9 +15,6 @@
 
 namespace tet_line_tracker {
 
-/// Whether lines are predicted from the IMU at all with these parameters.
-bool usesImu(const LineTrackerParameters& parameters);
-
 /// Rotation that takes directions in `imu_frame` to `camera_frame`, by the newest transforms of `frames`;
 /// nothing when they do not connect the two.
 std::optional<Eigen::Matrix3d> imuRotation(const tf2::BufferCore& frames, const std::string& imu_frame,

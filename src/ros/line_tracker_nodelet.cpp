@@ -147,7 +147,7 @@ void LineTrackerNodelet::onCameraInfo(const sensor_msgs::CameraInfoConstPtr& inf
 }
 
 void LineTrackerNodelet::onImu(const sensor_msgs::ImuConstPtr& message) {
-  if (usesImu(tracker_parameters_)) imu_.add(*message);
+  if (tracker_->usesImu()) imu_.add(*message);
 }
 
 bool LineTrackerNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
@@ -191,7 +191,7 @@ void LineTrackerNodelet::reportDiagnostics(diagnostic_updater::DiagnosticStatusW
 
 std::string LineTrackerNodelet::imuState() const {
   std::string topic = imu_subscriber_.getTopic();
-  if (!usesImu(tracker_parameters_)) return "not asked for";
+  if (!tracker_->usesImu()) return "not asked for";
   const std::optional<std::string> frame = imu_.frame();
   if (!frame) return "no message on " + topic;
   if (!imu_rotation_known_) return topic + ", no transform from its frame " + *frame + " to the camera's";
@@ -218,23 +218,23 @@ void LineTrackerNodelet::track(const sensor_msgs::ImageConstPtr& image) {
   }
   calibrated_ = model.camera != nullptr;
   checkMask(gray.cols, gray.rows);
-  if (usesImu(tracker_parameters_)) awaitImu(image->header);
+  if (tracker_->usesImu()) awaitImu(image->header);
 
   const std::lock_guard<std::mutex> lock(tracker_mutex_);
   tracker_->setCamera(model.camera);
   if (imu_rotation_) imu_.feed(stamp_ns, *tracker_);
-  const LineFrame* frame = tracker_->process(gray, stamp_ns);
-  if (frame == nullptr) {
-    dropByStamp(stamp_ns);
+  const FrameResult result = tracker_->process(gray, stamp_ns);
+  if (isDropped(result.verdict)) {
+    dropByStamp(result.verdict);
     return;
   }
+  const LineFrame* frame = result.frame;
   if (epoch_ != frame->epoch) {
     if (epoch_) NODELET_INFO("epoch %u begins at stamp %.6f", frame->epoch, stampSeconds(stamp_ns));
     epoch_ = frame->epoch;
     replaced_before_epoch_ = replaced_before;
     throttle_->reset();
   }
-  last_stamp_ns_ = stamp_ns;
   diagnostics_.addTracked(*frame, frame->statistics.total_ms);
   if (throttle_->pass(stamp_ns)) publish(*frame, gray, *image);
 }
@@ -308,10 +308,10 @@ void LineTrackerNodelet::publish(const LineFrame& frame, const cv::Mat& gray,
   }
 }
 
-void LineTrackerNodelet::dropByStamp(std::int64_t stamp_ns) {
-  if (stamp_ns == 0) {
+void LineTrackerNodelet::dropByStamp(StreamVerdict verdict) {
+  if (verdict == StreamVerdict::kDropZero) {
     drop(DropReason::kZero, "it has no stamp");
-  } else if (stamp_ns == last_stamp_ns_) {
+  } else if (verdict == StreamVerdict::kDropDuplicate) {
     drop(DropReason::kDuplicate, "its stamp is the one of the image before");
   } else {
     drop(DropReason::kLate, "its stamp is before the last one");

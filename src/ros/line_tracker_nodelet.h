@@ -61,7 +61,7 @@ class LineTrackerNodelet : public nodelet::Nodelet {
   void findImuRotation(const std::string& camera_frame);
   void checkMask(int width, int height);
   void publish(const LineFrame& frame, const cv::Mat& gray, const sensor_msgs::Image& image);
-  void dropByStamp(std::int64_t stamp_ns);
+  void dropByStamp(StreamVerdict verdict);
   void drop(DropReason reason, const std::string& sentence);
 
   LineTrackerParameters tracker_parameters_;
@@ -85,7 +85,6 @@ class LineTrackerNodelet : public nodelet::Nodelet {
   cv::Size mask_told_;  ///< size of the images that the mask did not fit
   std::optional<std::uint32_t> epoch_;
   std::uint64_t replaced_before_epoch_{0};
-  std::int64_t last_stamp_ns_{0};
   std::uint32_t lines_sequence_{0};
   std::uint32_t statistics_sequence_{0};
   std::array<ros::WallTime, static_cast<std::size_t>(DropReason::kCount)> drop_told_;

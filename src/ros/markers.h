@@ -7,7 +7,7 @@
 
 #include <visualization_msgs/MarkerArray.h>
 
-#include "tet_line_tracker/tracking/line_tracker.h"
+#include "tet_line_tracker/tracking/line_frame.h"
 
 namespace tet_line_tracker {
 

@@ -2,6 +2,8 @@
 
 #include <ros/time.h>
 
+#include <algorithm>
+
 namespace tet_line_tracker {
 namespace {
 
@@ -39,6 +41,8 @@ LineArray toLineArray(const LineFrame& frame, const std::string& frame_id, std::
     assign(line.start_normalized, out.start_normalized);
     assign(line.end_normalized, out.end_normalized);
     out.sigma_px = line.sigma_px;
+    std::copy(line.covariance_px.begin(), line.covariance_px.end(), out.covariance_px.begin());
+    out.cut = line.cut;
     out.residual = line.residual;
   }
   return message;
@@ -61,6 +65,8 @@ LineFrame toLineFrame(const LineArray& message) {
     out.start_normalized = {line.start_normalized[0], line.start_normalized[1]};
     out.end_normalized = {line.end_normalized[0], line.end_normalized[1]};
     out.sigma_px = line.sigma_px;
+    std::copy(line.covariance_px.begin(), line.covariance_px.end(), out.covariance_px.begin());
+    out.cut = line.cut;
     out.residual = line.residual;
   }
   return frame;
@@ -69,7 +75,6 @@ LineFrame toLineFrame(const LineArray& message) {
 TrackingStatistics toTrackingStatistics(const LineFrame& frame, const std::string& frame_id,
                                         std::uint32_t sequence, std::uint32_t dropped_queue) {
   const FrameStatistics& from = frame.statistics;
-  const auto lost = [&from](LossReason reason) { return from.lost[static_cast<std::size_t>(reason)]; };
   TrackingStatistics message;
   message.header = headerOf(frame, frame_id, sequence);
   message.epoch = frame.epoch;
@@ -81,16 +86,17 @@ TrackingStatistics toTrackingStatistics(const LineFrame& frame, const std::strin
   message.coverage = from.coverage;
   message.lines_cut = from.lines_cut;
   message.lines_left_out = from.lines_left_out;
-  message.lost_flow = lost(LossReason::kFlow);
-  message.lost_residual = lost(LossReason::kResidual);
-  message.lost_forward_backward = lost(LossReason::kForwardBackward);
-  message.lost_length = lost(LossReason::kLength);
-  message.lost_angle = lost(LossReason::kAngle);
-  message.lost_support = lost(LossReason::kSupport);
-  message.lost_border = lost(LossReason::kBorder);
-  message.lost_mask = lost(LossReason::kMask);
-  message.lost_duplicate = lost(LossReason::kDuplicate);
-  message.lost_geometry = lost(LossReason::kGeometry);
+  message.lost_flow = from.lostFor(LossReason::kFlow);
+  message.lost_residual = from.lostFor(LossReason::kResidual);
+  message.lost_length_ratio = from.lostFor(LossReason::kLengthRatio);
+  message.lost_angle = from.lostFor(LossReason::kAngle);
+  message.lost_support = from.lostFor(LossReason::kSupport);
+  message.lost_border = from.lostFor(LossReason::kBorder);
+  message.lost_short = from.lostFor(LossReason::kShort);
+  message.lost_field_of_view = from.lostFor(LossReason::kFieldOfView);
+  message.lost_mask = from.lostFor(LossReason::kMask);
+  message.lost_edge_jump = from.lostFor(LossReason::kEdgeJump);
+  message.lost_duplicate = from.lostFor(LossReason::kDuplicate);
   message.prior = from.prior;
   message.prior_rotation = from.prior_rotation;
   message.dropped_late = from.dropped_late;

@@ -11,8 +11,8 @@ namespace {
 constexpr std::array<const char*, static_cast<std::size_t>(DropReason::kCount)> kDropNames{
     "queue", "late stamp", "duplicate stamp", "zero stamp", "unreadable"};
 constexpr std::array<const char*, static_cast<std::size_t>(LossReason::kCount)> kLossNames{
-    "flow",   "residual", "forward-backward", "length",  "angle", "support",
-    "border", "mask",     "duplicate",        "geometry"};
+    "flow",  "residual",      "length ratio", "angle",     "support",  "border",
+    "short", "field of view", "mask",         "edge jump", "duplicate"};
 
 double seconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double>(duration).count();

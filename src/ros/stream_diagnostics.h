@@ -8,7 +8,7 @@
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
-#include "tet_line_tracker/tracking/line_tracker.h"
+#include "tet_line_tracker/tracking/line_frame.h"
 
 namespace tet_line_tracker {
 

@@ -5,7 +5,7 @@
 
 #include <rosbag/bag.h>
 
-#include "tet_line_tracker/tracking/line_tracker.h"
+#include "tet_line_tracker/tracking/line_frame.h"
 
 namespace tet_line_tracker {
 

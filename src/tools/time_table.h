@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tet_line_tracker/tracking/line_tracker.h"
+#include "tet_line_tracker/tracking/line_frame.h"
 
 namespace tet_line_tracker {
 

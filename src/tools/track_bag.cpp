@@ -116,7 +116,7 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
   }
 
   LineTracker tracker(tracker_parameters);
-  std::unique_ptr<BaselineTracker> baseline;
+  std::unique_ptr<LineFrontEnd> baseline;
   if (arguments.tracker != "tet") {
     baseline = makeBaselineTracker(arguments.tracker, tracker_parameters);
     cv::setNumThreads(1);  // times are those of one thread
@@ -132,7 +132,7 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
   const cv::Mat mask = readMask(node_parameters.mask);
   tracker.setMask(mask);
   std::unique_ptr<BagImu> imu;
-  if (!imu_topic.empty() && !baseline && usesImu(tracker_parameters) && !images.empty()) {
+  if (!imu_topic.empty() && !baseline && tracker.usesImu() && !images.empty()) {
     imu = std::make_unique<BagImu>(input, imu_topic);
     const auto image = images.begin()->second.instantiate<sensor_msgs::Image>();
     imu->setRotation(image->header.frame_id, imuRotation(node_parameters.imu_rotation), tracker);
@@ -163,7 +163,8 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
     if (!complaint.empty()) throw std::runtime_error(complaint);
     const auto stamp_ns = static_cast<std::int64_t>(stamp.toNSec());
     if (imu) imu->feed(stamp_ns, tracker);
-    const LineFrame* frame = baseline ? baseline->process(gray, stamp_ns) : tracker.process(gray, stamp_ns);
+    LineFrontEnd& front_end = baseline ? *baseline : tracker;
+    const LineFrame* frame = front_end.process(gray, stamp_ns).frame;
     if (frame == nullptr) continue;
     output.write(sequence_bag::kLinesTopic, stamp, toLineArray(*frame, image->header.frame_id, sequence));
     output.write(kStatisticsTopic, stamp, statisticsOf(*frame, image->header.frame_id, sequence, arguments));

@@ -99,24 +99,20 @@ void frontEnd(benchmark::State& state) {
 }
 BENCHMARK(frontEnd)->Apply(sizes);
 
-EndpointTrackerParameters flowParameters(bool paper) {
-  LineTrackerParameters parameters;
-  parameters.method = paper ? "paper" : "joint";
-  return paper ? asPublished(parameters).flow : parameters.flow;
-}
-
 /// Templates and flow of many lines.
 void flow(benchmark::State& state, bool paper) {
   const Sequence& images = flight(752, 480);
   const std::vector<LineSegment> lines = linesOf(images.image(0), state.range(0));
   std::array<ImagePyramid, 2> pyramids;
   for (std::size_t i = 0; i < 2; ++i) pyramids[i].build(images.image(i), kLevels);
-  const EndpointTracker tracker(flowParameters(paper));
+  const auto tracker =
+      paper ? makeTwoEndpointFlow(EndpointTrackerParameters()) : makeJointFlow(EndpointTrackerParameters());
   std::vector<LineTemplate> templates(lines.size());
   for (auto _ : state) {
-    for (std::size_t i = 0; i < lines.size(); ++i) tracker.describe(pyramids[0], lines[i], templates[i]);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      tracker->extractTemplate(pyramids[0], lines[i], templates[i]);
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      benchmark::DoNotOptimize(tracker.track(templates[i], pyramids[1], lines[i]));
+      benchmark::DoNotOptimize(tracker->track(templates[i], pyramids[1], lines[i]));
     }
   }
   state.counters["lines"] = static_cast<double>(lines.size());

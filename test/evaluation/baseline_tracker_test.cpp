@@ -59,7 +59,7 @@ TEST_P(EveryBaseline, FollowsMovingBoxesAndKeepsTheRules) {
   std::size_t misplaced = 0;
   std::vector<TrackedLine> last;
   for (int k = 0; k < kImages; ++k) {
-    const LineFrame* frame = baseline->process(boxes(1.5 * k), 1000000000 + 50000000LL * k);
+    const LineFrame* frame = baseline->process(boxes(1.5 * k), 1000000000 + 50000000LL * k).frame;
     ASSERT_NE(frame, nullptr);
     EXPECT_GE(frame->lines.size(), 10U);
     rules.add(*frame);
@@ -81,9 +81,9 @@ TEST_P(EveryBaseline, FollowsMovingBoxesAndKeepsTheRules) {
 }
 
 TEST_P(EveryBaseline, StartsAnEpochWhenTheStreamJumpsAndDropsDuplicates) {
-  ASSERT_NE(baseline->process(boxes(0.0), 1000000000), nullptr);
-  EXPECT_EQ(baseline->process(boxes(0.0), 1000000000), nullptr);
-  const LineFrame* frame = baseline->process(boxes(0.0), 900000000000);
+  ASSERT_NE(baseline->process(boxes(0.0), 1000000000).frame, nullptr);
+  EXPECT_EQ(baseline->process(boxes(0.0), 1000000000).frame, nullptr);
+  const LineFrame* frame = baseline->process(boxes(0.0), 900000000000).frame;
   ASSERT_NE(frame, nullptr);
   EXPECT_EQ(frame->epoch, 1U);
   EXPECT_EQ(frame->image_count, 1U);
@@ -92,9 +92,9 @@ TEST_P(EveryBaseline, StartsAnEpochWhenTheStreamJumpsAndDropsDuplicates) {
 
 TEST_P(EveryBaseline, GoesThroughAnImageWithoutLines) {
   const cv::Mat nothing(240, 320, CV_8UC1, cv::Scalar(90));
-  ASSERT_NE(baseline->process(boxes(0.0), 1000000000), nullptr);
-  EXPECT_TRUE(baseline->process(nothing, 1050000000)->lines.empty());
-  EXPECT_FALSE(baseline->process(boxes(0.0), 1100000000)->lines.empty());
+  ASSERT_NE(baseline->process(boxes(0.0), 1000000000).frame, nullptr);
+  EXPECT_TRUE(baseline->process(nothing, 1050000000).frame->lines.empty());
+  EXPECT_FALSE(baseline->process(boxes(0.0), 1100000000).frame->lines.empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Baselines, EveryBaseline, testing::Values("lsd_lbd_knn", "lk_endpoints"));

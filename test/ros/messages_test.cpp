@@ -64,9 +64,9 @@ TEST(Messages, GiveEachReasonOfALossItsField) {
   frame.statistics.total_ms = 2.5;
   const TrackingStatistics message = toTrackingStatistics(frame, "cam0", 0, 4);
   const std::vector<std::uint32_t> lost{
-      message.lost_flow,      message.lost_residual, message.lost_forward_backward, message.lost_length,
-      message.lost_angle,     message.lost_support,  message.lost_border,           message.lost_mask,
-      message.lost_duplicate, message.lost_geometry};
+      message.lost_flow,    message.lost_residual,  message.lost_length_ratio, message.lost_angle,
+      message.lost_support, message.lost_border,    message.lost_short,        message.lost_field_of_view,
+      message.lost_mask,    message.lost_edge_jump, message.lost_duplicate};
   ASSERT_EQ(lost.size(), frame.statistics.lost.size());
   for (std::size_t i = 0; i < lost.size(); ++i) EXPECT_EQ(lost[i], 100 + i);
   EXPECT_EQ(message.dropped_late, 7U);

@@ -8,7 +8,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "tet_line_tracker/tracking/line_tracker.h"
+#include "tet_line_tracker/tracking/line_frame.h"
 
 namespace tet_line_tracker {
 

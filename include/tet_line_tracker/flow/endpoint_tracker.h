@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
-#include <vector>
+
+#include <opencv2/core.hpp>
 
 #include "tet_line_tracker/geometry/line_segment.h"
 #include "tet_line_tracker/image/image_pyramid.h"
@@ -9,9 +11,11 @@
 
 namespace tet_line_tracker {
 
+struct PatchRow;
+
 /// What a line looks like in one image: patches along it at each pyramid level, with their gradients (paper:
-/// the gradients come from the first image alone). Buffers are kept: made for one set of parameters and
-/// filled again and again by EndpointTracker::describe(). Move-only.
+/// the gradients come from the first image alone). Buffers are kept and filled again and again by
+/// EndpointTracker::extractTemplate(). Move-only.
 class LineTemplate {
  public:
   LineTemplate();
@@ -29,33 +33,60 @@ class LineTemplate {
 struct EndpointFlow {
   enum class Status {
     kTracked,
-    kNoSolution,   ///< too little texture, or the iterations ran away
+    kNoSolution,   ///< too little texture, or the iterations diverged
     kOutside,      ///< an endpoint left the image
     kHighResidual  ///< the gray values do not match
   };
   Status status{Status::kNoSolution};
   LineSegment segment;  ///< in the second image [px]
-  /// Mean absolute gray difference, 0..1: of the worse end's patch, or of all patches where both ends move
-  /// together.
+  /// Mean absolute gray difference on the finest level, 0..1: of the worse endpoint's patch (two-endpoint
+  /// flow), or of all patches (joint flow).
   float residual{0.0F};
 };
 
 /// TET, Algorithm 1 of the paper: follows both endpoints of a segment from one image to the next by iterative
-/// Lucas-Kanade flow over the pyramid, coarse to fine. Const and thread-safe once made.
+/// Lucas-Kanade flow over the pyramid, coarse to fine. Derived classes say how the two movement vectors are
+/// estimated on one level. Const and thread-safe once made.
 class EndpointTracker {
  public:
-  /// Throws std::invalid_argument when check() finds a broken rule.
-  explicit EndpointTracker(const EndpointTrackerParameters& parameters);
+  virtual ~EndpointTracker() = default;
 
   /// Takes the patches of `segment` from the first image.
-  void describe(const ImagePyramid& first, const LineSegment& segment, LineTemplate& patches) const;
+  void extractTemplate(const ImagePyramid& first, const LineSegment& segment, LineTemplate& patches) const;
 
-  /// Follows the line of `patches` into the second image, from where it is expected there.
+  /// Follows the line of `patches` into the second image, from where it is expected there. Throws
+  /// std::invalid_argument when `patches` were extracted with another window size.
   EndpointFlow track(const LineTemplate& patches, const ImagePyramid& second,
                      const LineSegment& expected) const;
 
+ protected:
+  using Status = EndpointFlow::Status;
+
+  struct Layout {
+    int finest_level;         ///< the flow ends there
+    std::size_t max_patches;  ///< along the line on each level, at least 2: one at each end
+    bool zero_mean;           ///< patches without their mean, for flow that matches gain and offset
+  };
+  /// Throws std::invalid_argument when check() finds a broken rule.
+  EndpointTracker(const EndpointTrackerParameters& parameters, const Layout& layout);
+
+  const EndpointTrackerParameters& parameters() const { return parameters_; }
+
  private:
+  /// Moves `segment` [px of the level] from where it is expected to where it is; sets the residual on the
+  /// finest level.
+  virtual Status trackOnLevel(const PatchRow& row, const cv::Mat& image, bool finest, LineSegment& segment,
+                              float& residual) const = 0;
+
   EndpointTrackerParameters parameters_;
+  Layout layout_;
 };
+
+/// As published: each endpoint by the patch around it, gray values as they are, on all levels.
+std::unique_ptr<EndpointTracker> makeTwoEndpointFlow(const EndpointTrackerParameters& parameters);
+
+/// Both movement vectors m1 and m2 in one 4x4 system from patches along the segment: a patch at fraction s
+/// moves by (1 - s) m1 + s m2.
+std::unique_ptr<EndpointTracker> makeJointFlow(const EndpointTrackerParameters& parameters);
 
 }  // namespace tet_line_tracker

@@ -10,7 +10,7 @@
 
 #include "tet_line_tracker/mapping/pluecker_line.h"
 #include "tet_line_tracker/parameters/parameter_table.h"
-#include "tet_line_tracker/tracking/line_tracker.h"
+#include "tet_line_tracker/tracking/line_frame.h"
 
 namespace tet_line_tracker {
 

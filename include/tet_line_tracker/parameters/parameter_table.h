@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <string>
 #include <variant>
 #include <vector>
@@ -29,6 +30,8 @@ class ParameterTable {
   Entry& add(std::string name, std::string& field, std::vector<std::string> choices, std::string meaning);
   /// Takes over the entries of another part.
   void append(ParameterTable other);
+  /// A name of earlier versions, and what became of it: "is now max_rotation". set() refuses it with that.
+  void addRetired(std::string name, std::string fate);
 
   const std::vector<Entry>& entries() const { return entries_; }
   const Entry* find(const std::string& name) const;
@@ -38,7 +41,8 @@ class ParameterTable {
   /// known one.
   void set(const std::string& name, const std::string& text);
 
-  /// The sentence for a name that the table does not hold, with the nearest name that it does.
+  /// The sentence for a name that the table does not hold: what became of it, or the nearest name that it
+  /// does hold.
   std::string unknownName(const std::string& name) const;
 
   /// One sentence for each value out of its range, empty when all are fine.
@@ -49,6 +53,7 @@ class ParameterTable {
 
  private:
   std::vector<Entry> entries_;
+  std::map<std::string, std::string> retired_;
 };
 
 }  // namespace tet_line_tracker

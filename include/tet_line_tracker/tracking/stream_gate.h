@@ -16,6 +16,10 @@ enum class StreamVerdict {
   kDropZero        ///< it has no stamp
 };
 
+inline bool isDropped(StreamVerdict verdict) {
+  return verdict != StreamVerdict::kTrack && verdict != StreamVerdict::kNewEpoch;
+}
+
 /// Decides by stamps and sizes alone whether an image continues a stream (open bags, live cameras, bag
 /// loops). A single late image is dropped; when kLateImagesForNewEpoch images in a row, each later than the
 /// one before, are all behind the last accepted one, the stream has jumped back for good and a new epoch

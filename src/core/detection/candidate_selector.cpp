@@ -4,19 +4,19 @@
 
 namespace tet_line_tracker {
 
-void SpreadChooser::start(int width, int height, const std::vector<LineSegment>& candidates) {
+void CandidateSelector::start(int width, int height, const std::vector<LineSegment>& candidates) {
   cells_per_px_ = {static_cast<float>(kColumns) / static_cast<float>(width),
                    static_cast<float>(kRows) / static_cast<float>(height)};
   cell_px_ = 1.0F / cells_per_px_.maxCoeff();
   filled_.fill(0.0F);
   candidates_ = &candidates;
-  bids_.clear();
-  for (std::size_t i = 0; i < candidates.size(); ++i) bids_.push_back({worthOf(candidates[i]), i});
-  std::make_heap(bids_.begin(), bids_.end());
+  heap_.clear();
+  for (std::size_t i = 0; i < candidates.size(); ++i) heap_.push_back({scoreOf(candidates[i]), i});
+  std::make_heap(heap_.begin(), heap_.end());
 }
 
 template <class Visit>
-void SpreadChooser::visitCells(const LineSegment& line, const Visit& visit) const {
+void CandidateSelector::visitCells(const LineSegment& line, const Visit& visit) const {
   const int steps = 2 + static_cast<int>(2.0F * line.length() / cell_px_);
   const float share = line.length() / (static_cast<float>(steps) * cell_px_);
   for (int i = 0; i < steps; ++i) {
@@ -28,25 +28,25 @@ void SpreadChooser::visitCells(const LineSegment& line, const Visit& visit) cons
   }
 }
 
-void SpreadChooser::add(const LineSegment& line) {
+void CandidateSelector::add(const LineSegment& line) {
   visitCells(line, [this](std::size_t cell, float length) { filled_[cell] += length; });
 }
 
-float SpreadChooser::worthOf(const LineSegment& line) const {
-  float worth = 0.0F;
-  visitCells(line, [&](std::size_t cell, float length) { worth += length / (1.0F + filled_[cell]); });
-  return worth;
+float CandidateSelector::scoreOf(const LineSegment& line) const {
+  float score = 0.0F;
+  visitCells(line, [&](std::size_t cell, float length) { score += length / (1.0F + filled_[cell]); });
+  return score;
 }
 
-const LineSegment* SpreadChooser::next() {
-  while (!bids_.empty()) {
-    std::pop_heap(bids_.begin(), bids_.end());
-    Bid best = bids_.back();
-    bids_.pop_back();
-    best.worth = worthOf((*candidates_)[best.candidate]);
-    if (bids_.empty() || !(best < bids_.front())) return &(*candidates_)[best.candidate];
-    bids_.push_back(best);
-    std::push_heap(bids_.begin(), bids_.end());
+const LineSegment* CandidateSelector::next() {
+  while (!heap_.empty()) {
+    std::pop_heap(heap_.begin(), heap_.end());
+    Entry best = heap_.back();
+    heap_.pop_back();
+    best.score = scoreOf((*candidates_)[best.candidate]);
+    if (heap_.empty() || !(best < heap_.front())) return &(*candidates_)[best.candidate];
+    heap_.push_back(best);
+    std::push_heap(heap_.begin(), heap_.end());
   }
   return nullptr;
 }

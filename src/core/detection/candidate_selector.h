@@ -9,43 +9,42 @@
 
 namespace tet_line_tracker {
 
-/// Gives the longest and best spread of new lines first: what a line brings is its length, and in each cell
-/// of an 8x6 grid over the image the less, the more length of lines already lies there. Equal bids go to the
-/// line that came first among the candidates. Buffers are kept from start to start.
-class SpreadChooser {
+/// Chooses among detected segments: the longest and best spread ones first. The score of a candidate is its
+/// length, each part of it divided by one plus the length of the lines that its cell of an 8x6 grid over the
+/// image already holds. Equal scores go to the candidate that came first. Buffers are kept between images.
+class CandidateSelector {
  public:
-  /// Begins anew with an empty image of this size [px]. `candidates` must stay as they are until the next
-  /// start.
+  /// Begins with an empty image of this size [px]. `candidates` must stay unchanged until the next start().
   void start(int width, int height, const std::vector<LineSegment>& candidates);
 
-  /// From now on `line` fills its cells.
+  /// Fills the cells of a line that is tracked or was chosen.
   void add(const LineSegment& line);
 
-  /// The best of the candidates that were not given yet; nullptr: none is left.
+  /// The candidate with the highest score that next() has not returned yet; nullptr when none is left.
   const LineSegment* next();
 
  private:
   static constexpr int kColumns = 8;
   static constexpr int kRows = 6;
 
-  struct Bid {
-    float worth;
+  struct Entry {
+    float score;
     std::size_t candidate;
-    bool operator<(const Bid& other) const {
-      return worth < other.worth || (worth == other.worth && candidate > other.candidate);
+    bool operator<(const Entry& other) const {
+      return score < other.score || (score == other.score && candidate > other.candidate);
     }
   };
 
   /// Calls `visit` with each cell of the line, and the length in it [cell sides].
   template <class Visit>
   void visitCells(const LineSegment& line, const Visit& visit) const;
-  float worthOf(const LineSegment& line) const;
+  float scoreOf(const LineSegment& line) const;
 
   Eigen::Vector2f cells_per_px_{0.0F, 0.0F};
   float cell_px_{1.0F};
   std::array<float, static_cast<std::size_t>(kColumns* kRows)> filled_{};  ///< with lines [cell sides]
   const std::vector<LineSegment>* candidates_{nullptr};
-  std::vector<Bid> bids_;  ///< heap; no candidate is worth more than it bids, as cells only fill up
+  std::vector<Entry> heap_;  ///< scores are upper bounds: cells only fill up
 };
 
 }  // namespace tet_line_tracker

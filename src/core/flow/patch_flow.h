@@ -15,6 +15,11 @@ namespace tet_line_tracker {
 
 constexpr std::size_t kMaxPatches = 16;
 
+constexpr float kGrayRange = 255.0F;  // gray thresholds are on [0, 1]
+
+/// Largest movement on one pyramid level, in windows: beyond it the gradients say nothing of the place.
+constexpr float kMaxMovement = 1.0F;
+
 /// A patch whose gain leaves this range shows something else.
 constexpr float kMinGain = 0.2F;
 constexpr float kMaxGain = 5.0F;
@@ -70,16 +75,16 @@ inline PatchMatch matchOf(const Patch& patch, const kernels::DifferenceSums& sum
   return match;
 }
 
-/// Less weight for matches that are worse than the others: covered patches, moved background. At most
-/// kMaxPatches of them.
-void weigh(PatchMatch* matches, std::size_t count);
+/// Sets the Geman-McClure weights of at most kMaxPatches matches: less for those that are worse than the
+/// others, as covered patches or another background.
+void computeGemanMcClureWeights(PatchMatch* matches, std::size_t count);
 
 /// A symmetric 2x2 matrix.
-struct Symmetric {
+struct SymmetricMatrix {
   float xx{0.0F}, xy{0.0F}, yy{0.0F};
 
   float determinant() const { return xx * yy - xy * xy; }
-  Symmetric inverse() const {
+  SymmetricMatrix inverse() const {
     const float scale = 1.0F / determinant();
     return {yy * scale, -xy * scale, xx * scale};
   }
@@ -92,14 +97,14 @@ struct Symmetric {
 class JointEquations {
  public:
   void add(const PatchMatch& match);
-  /// Ties both endpoints to where they are expected, with the weight of a gradient of `weight` [gray^2 /
+  /// A prior on both endpoints: where they are expected, with the weight of a gradient of `weight` [gray^2 /
   /// px^2].
-  void hold(const LineSegment& segment, const LineSegment& expected, float weight);
+  void addPrior(const LineSegment& segment, const LineSegment& expected, float weight);
   /// Steps of start and end [px]; not finite when the system is singular.
   std::pair<Eigen::Vector2f, Eigen::Vector2f> solve() const;
 
  private:
-  Symmetric start_, coupling_, end_;  ///< blocks of the matrix
+  SymmetricMatrix start_, coupling_, end_;  ///< blocks of the matrix
   Eigen::Vector2f start_slope_{Eigen::Vector2f::Zero()};
   Eigen::Vector2f end_slope_{Eigen::Vector2f::Zero()};
 };

@@ -5,44 +5,44 @@
 
 namespace tet_line_tracker {
 
-bool onSameEdge(const LineSegment& a, const LineSegment& b, const SameEdgeLimits& limits) {
+bool areDuplicates(const LineSegment& a, const LineSegment& b, const DuplicateCriteria& criteria) {
   // The cheap tests first: nearly all pairs fail them.
   const Eigen::Vector2f u = a.end - a.start;
   const Eigen::Vector2f v = b.end - b.start;
   const float dot = u.dot(v);
   const float cross = u.x() * v.y() - u.y() * v.x();
-  if (dot <= 0.0F || std::abs(cross) > limits.turn * dot) return false;
+  if (dot <= 0.0F || std::abs(cross) > criteria.max_tangent * dot) return false;
   const bool a_longer = u.squaredNorm() >= v.squaredNorm();
   const LineSegment& longer = a_longer ? a : b;
   const LineSegment& shorter = a_longer ? b : a;
-  if (std::abs(longer.distance(shorter.middle())) > limits.distance) return false;
-  return overlap(shorter, longer) >= limits.overlap;
+  if (std::abs(longer.distance(shorter.middle())) > criteria.max_distance) return false;
+  return overlap(shorter, longer) >= criteria.min_overlap;
 }
 
-void EdgeIndex::clear() {
+void SegmentIndex::clear() {
   segments_.clear();
   next_.clear();
   heads_.fill(kNone);
 }
 
-void EdgeIndex::add(const LineSegment& segment) {
+void SegmentIndex::add(const LineSegment& segment) {
   int& head = heads_[static_cast<std::size_t>(sectorOf(segment))];
   next_.push_back(head);
   head = static_cast<int>(segments_.size());
   segments_.push_back(segment);
 }
 
-bool EdgeIndex::holdsEdgeOf(const LineSegment& segment) const {
+bool SegmentIndex::containsDuplicateOf(const LineSegment& segment) const {
   const int sector = sectorOf(segment);
   for (const int near : {sector, (sector + 1) % kSectors, (sector + kSectors - 1) % kSectors}) {
     for (int i = heads_[static_cast<std::size_t>(near)]; i != kNone; i = next_[static_cast<std::size_t>(i)]) {
-      if (onSameEdge(segment, segments_[static_cast<std::size_t>(i)], limits_)) return true;
+      if (areDuplicates(segment, segments_[static_cast<std::size_t>(i)], criteria_)) return true;
     }
   }
   return false;
 }
 
-int EdgeIndex::sectorOf(const LineSegment& segment) {
+int SegmentIndex::sectorOf(const LineSegment& segment) {
   // A measure of the angle from 0 to 4 without a sine; a sector of it is at least 0.25 rad wide.
   const Eigen::Vector2f d = segment.end - segment.start;
   const float sum = std::abs(d.x()) + std::abs(d.y());

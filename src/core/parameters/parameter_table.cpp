@@ -100,6 +100,11 @@ ParameterTable::Entry& ParameterTable::add(std::string name, std::string& field,
 
 void ParameterTable::append(ParameterTable other) {
   std::move(other.entries_.begin(), other.entries_.end(), std::back_inserter(entries_));
+  retired_.merge(other.retired_);
+}
+
+void ParameterTable::addRetired(std::string name, std::string fate) {
+  retired_.emplace(std::move(name), std::move(fate));
 }
 
 const ParameterTable::Entry* ParameterTable::find(const std::string& name) const {
@@ -109,6 +114,8 @@ const ParameterTable::Entry* ParameterTable::find(const std::string& name) const
 }
 
 std::string ParameterTable::unknownName(const std::string& name) const {
+  const auto retired = retired_.find(name);
+  if (retired != retired_.end()) return "parameter " + name + " " + retired->second;
   std::string nearest;
   std::size_t smallest = std::max<std::size_t>(3, name.size() / 2);
   for (const Entry& entry : entries_) {

@@ -8,8 +8,8 @@
 namespace tet_line_tracker {
 namespace {
 
-constexpr float kSpreads = 8.0F;
-constexpr std::size_t kEnough = 10;
+constexpr float kDeviations = 8.0F;
+constexpr std::size_t kMinValues = 10;
 
 float median(std::vector<float>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -19,11 +19,11 @@ float median(std::vector<float>& values) {
 
 }  // namespace
 
-float outlierLimit(std::vector<float>& values, float margin) {
-  if (values.size() < kEnough) return std::numeric_limits<float>::infinity();
-  const float usual = median(values);
-  for (float& value : values) value = std::abs(value - usual);
-  return usual + kSpreads * median(values) + margin;
+float madThreshold(std::vector<float>& values, float margin) {
+  if (values.size() < kMinValues) return std::numeric_limits<float>::infinity();
+  const float centre = median(values);
+  for (float& value : values) value = std::abs(value - centre);
+  return centre + kDeviations * median(values) + margin;
 }
 
 }  // namespace tet_line_tracker

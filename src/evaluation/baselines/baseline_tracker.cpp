@@ -12,33 +12,21 @@
 namespace tet_line_tracker {
 
 BaselineTracker::BaselineTracker(const LineTrackerParameters& parameters)
-    : detection_(parameters.detection), gate_(parameters.stream) {}
+    : detection_(parameters.detection), frames_(parameters.stream) {}
 
-const LineFrame* BaselineTracker::process(const cv::Mat& gray, std::int64_t stamp_ns) {
-  const StreamVerdict verdict = gate_.admit(stamp_ns, gray.cols, gray.rows);
-  if (verdict != StreamVerdict::kTrack && verdict != StreamVerdict::kNewEpoch) return nullptr;
+FrameResult BaselineTracker::process(const cv::Mat& gray, std::int64_t stamp_ns) {
+  const StreamVerdict verdict = frames_.begin(gray, stamp_ns);
+  if (isDropped(verdict)) return {verdict, nullptr};
   Stopwatch total;
-  if (verdict == StreamVerdict::kNewEpoch) {
-    if (any_epoch_) ++frame_.epoch;
-    any_epoch_ = true;
-    frame_.image_count = 0;
-    frame_.lines.clear();
-    forget();
-  }
-  ++frame_.image_count;
-  frame_.stamp_ns = stamp_ns;
-  frame_.width = gray.cols;
-  frame_.height = gray.rows;
-  frame_.detected = false;
-  frame_.statistics = FrameStatistics{};
-  frame_.statistics.tracks_before = static_cast<std::uint32_t>(frame_.lines.size());
+  if (verdict == StreamVerdict::kNewEpoch) forget();
   track(gray);
   Stopwatch stage;
-  normalizeEndpoints();
-  frame_.statistics.undistort_ms = stage.lap();
-  frame_.statistics.total_ms = total.lap();
-  frame_.statistics.coverage = static_cast<float>(gridCoverage(frame_));
-  return &frame_;
+  normalizeEndpoints(camera_.get(), frame().lines);
+  FrameStatistics& statistics = frame().statistics;
+  statistics.undistort_ms = stage.lap();
+  statistics.total_ms = total.lap();
+  statistics.coverage = static_cast<float>(gridCoverage(frame()));
+  return {verdict, &frame()};
 }
 
 TrackedLine BaselineTracker::newLine(const LineSegment& segment) {
@@ -46,17 +34,6 @@ TrackedLine BaselineTracker::newLine(const LineSegment& segment) {
   line.id = next_id_++;
   line.segment = segment;
   return line;
-}
-
-void BaselineTracker::normalizeEndpoints() {
-  const Eigen::Vector2d unknown = TrackedLine{}.start_normalized;
-  for (TrackedLine& line : frame_.lines) {
-    const auto normalized = [&](const Eigen::Vector2f& pixel) {
-      return camera_ ? camera_->normalize(pixel.cast<double>()).value_or(unknown) : unknown;
-    };
-    line.start_normalized = normalized(line.segment.start);
-    line.end_normalized = normalized(line.segment.end);
-  }
 }
 
 std::vector<std::string> baselineNames() {

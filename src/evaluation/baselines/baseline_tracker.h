@@ -7,23 +7,20 @@
 
 #include <opencv2/core.hpp>
 
-#include "tet_line_tracker/camera/camera_model.h"
-#include "tet_line_tracker/tracking/line_tracker.h"
-#include "tet_line_tracker/tracking/stream_gate.h"
+#include "tet_line_tracker/parameters/parameters.h"
+#include "tet_line_tracker/tracking/frame_sequence.h"
+#include "tet_line_tracker/tracking/line_front_end.h"
 
 namespace tet_line_tracker {
 
-/// Another way from images to line tracks, with the outputs of LineTracker, to compare it with. Of its
-/// parameters those of detection and stream are used; the detector is always LSD.
-/// In the statistics, flow_ms is the time of matching or flow, refine_ms that of describing lines.
-class BaselineTracker {
+/// Another front end to compare LineTracker with. Of its parameters those of detection and stream are used;
+/// the detector is always LSD. In the statistics, flow_ms is the time of matching or flow, refine_ms that of
+/// describing lines.
+class BaselineTracker : public LineFrontEnd {
  public:
-  virtual ~BaselineTracker() = default;
-
-  /// As LineTracker::setCamera().
-  void setCamera(std::shared_ptr<const CameraModel> camera) { camera_ = std::move(camera); }
-  /// As LineTracker::process().
-  const LineFrame* process(const cv::Mat& gray, std::int64_t stamp_ns);
+  void setCamera(std::shared_ptr<const CameraModel> camera) override { camera_ = std::move(camera); }
+  FrameResult process(const cv::Mat& gray, std::int64_t stamp_ns) override;
+  std::size_t reset() override { return frames_.reset(); }
 
  protected:
   explicit BaselineTracker(const LineTrackerParameters& parameters);
@@ -34,20 +31,16 @@ class BaselineTracker {
   /// Forgets what was kept besides frame().lines.
   virtual void forget() = 0;
 
-  LineFrame& frame() { return frame_; }
+  LineFrame& frame() { return frames_.frame(); }
   const DetectionParameters& detection() const { return detection_; }
   /// A line that is seen for the first time.
   TrackedLine newLine(const LineSegment& segment);
 
  private:
-  void normalizeEndpoints();
-
   DetectionParameters detection_;
-  StreamGate gate_;
+  FrameSequence frames_;
   std::shared_ptr<const CameraModel> camera_;
-  LineFrame frame_;
   std::uint64_t next_id_{0};
-  bool any_epoch_{false};
 };
 
 /// Names of the baselines that this build holds.

@@ -47,8 +47,7 @@ void LkEndpoints::flow() {
 
   const ImageBounds bounds =
       ImageBounds::ofImage(frame().width, frame().height, static_cast<float>(detection().border));
-  auto& lost = frame().statistics.lost;
-  const auto count = [&lost](LossReason reason) { ++lost[static_cast<std::size_t>(reason)]; };
+  const auto count = [this](LossReason reason) { ++frame().statistics.lostFor(reason); };
   std::size_t kept = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::size_t start = 2 * i;
@@ -63,7 +62,7 @@ void LkEndpoints::flow() {
     } else if (!bounds.contains(segment.start) || !bounds.contains(segment.end)) {
       count(LossReason::kBorder);
     } else if (segment.length() < detection().min_length) {
-      count(LossReason::kLength);
+      count(LossReason::kShort);
     } else {
       lines[kept] = lines[i];
       lines[kept].segment = segment;
@@ -84,12 +83,12 @@ void LkEndpoints::addLines(const cv::Mat& gray) {
       ImageBounds::ofImage(frame().width, frame().height, static_cast<float>(detection().border));
   const std::size_t tracked = lines.size();
   const auto max_lines = static_cast<std::size_t>(detection().max_lines);
-  EdgeIndex taken(SameEdgeLimits{});
+  SegmentIndex taken(DuplicateCriteria{});
   for (const TrackedLine& line : lines) taken.add(line.segment);
   for (const LineSegment& candidate : candidates_) {
     if (lines.size() >= max_lines) break;
     if (!bounds.contains(candidate.start) || !bounds.contains(candidate.end)) continue;
-    if (taken.holdsEdgeOf(candidate)) continue;
+    if (taken.containsDuplicateOf(candidate)) continue;
     taken.add(candidate);
     lines.push_back(newLine(candidate));
   }

@@ -73,8 +73,7 @@ void LsdLbdKnn::track(const cv::Mat& gray) {
     ++statistics.tracks_kept;
   }
   statistics.lines_added = static_cast<std::uint32_t>(lines.size()) - statistics.tracks_kept;
-  statistics.lost[static_cast<std::size_t>(LossReason::kFlow)] =
-      statistics.tracks_before - statistics.tracks_kept;
+  statistics.lostFor(LossReason::kFlow) = statistics.tracks_before - statistics.tracks_kept;
 
   // Oldest first, and the descriptors in the same order.
   std::vector<std::size_t> order(lines.size());

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
@@ -17,12 +18,6 @@ namespace {
 constexpr int kLevels = 3;
 constexpr int kWindow = 7;
 constexpr std::size_t kLines = 100;
-
-EndpointTrackerParameters paperParameters() {
-  LineTrackerParameters parameters;
-  parameters.method = "paper";
-  return asPublished(parameters).flow;
-}
 
 /// OpenCV's flow with the paper's values.
 struct OpenCvFlow {
@@ -59,14 +54,14 @@ class PaperFlow {
   void run(const ImagePyramid& first, const ImagePyramid& second, const std::vector<LineSegment>& lines) {
     flows.resize(lines.size());
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      tracker_.describe(first, lines[i], patches_);
-      flows[i] = tracker_.track(patches_, second, lines[i]);
+      tracker_->extractTemplate(first, lines[i], patches_);
+      flows[i] = tracker_->track(patches_, second, lines[i]);
     }
   }
   std::vector<EndpointFlow> flows;
 
  private:
-  EndpointTracker tracker_{paperParameters()};
+  std::unique_ptr<EndpointTracker> tracker_{makeTwoEndpointFlow(EndpointTrackerParameters())};
   LineTemplate patches_;
 };
 

@@ -30,13 +30,15 @@ Contender trackerOf(const std::string& name, const LineTrackerParameters& parame
                     const Sequence& sequence) {
   const auto tracker = std::make_shared<LineTracker>(parameters);
   tracker->setCamera(sequence.camera());
-  return {name, [tracker](const cv::Mat& gray, std::int64_t stamp) { return tracker->process(gray, stamp); }};
+  return {name,
+          [tracker](const cv::Mat& gray, std::int64_t stamp) { return tracker->process(gray, stamp).frame; }};
 }
 
 Contender baselineOf(const std::string& name, const std::string& baseline, const Sequence& sequence) {
   const std::shared_ptr<BaselineTracker> tracker = makeBaselineTracker(baseline, ours(1000));
   tracker->setCamera(sequence.camera());
-  return {name, [tracker](const cv::Mat& gray, std::int64_t stamp) { return tracker->process(gray, stamp); }};
+  return {name,
+          [tracker](const cv::Mat& gray, std::int64_t stamp) { return tracker->process(gray, stamp).frame; }};
 }
 
 }  // namespace

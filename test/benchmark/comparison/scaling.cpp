@@ -27,7 +27,7 @@ Costs costsOf(const Sequence& sequence, std::size_t images, const LineTrackerPar
   for (std::size_t i = 0; i < images; ++i) {
     const cv::Mat& image = sequence.image(i);
     const LineFrame* frame = nullptr;
-    const auto track = [&] { frame = tracker.process(image, Sequence::stamp(i)); };
+    const auto track = [&] { frame = tracker.process(image, Sequence::stamp(i)).frame; };
     if (i == 0) {
       track();
       continue;

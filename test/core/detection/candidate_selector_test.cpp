@@ -9,27 +9,27 @@ LineSegment horizontal(float x, float y, float length) {
   return {{x, y}, {x + length, y}};
 }
 
-TEST(SpreadChooser, GivesEachCandidateOnce) {
+TEST(CandidateSelector, GivesEachCandidateOnce) {
   const std::vector<LineSegment> candidates{horizontal(10, 10, 40), horizontal(300, 200, 60)};
-  SpreadChooser chooser;
+  CandidateSelector chooser;
   chooser.start(800, 600, candidates);
   EXPECT_EQ(chooser.next(), &candidates[1]);
   EXPECT_EQ(chooser.next(), &candidates[0]);
   EXPECT_EQ(chooser.next(), nullptr);
 }
 
-TEST(SpreadChooser, PrefersAnEmptyPartOfTheImageToALongerLineInAFullOne) {
+TEST(CandidateSelector, PrefersAnEmptyPartOfTheImageToALongerLineInAFullOne) {
   const std::vector<LineSegment> candidates{horizontal(10, 20, 80), horizontal(610, 420, 50)};
-  SpreadChooser chooser;
+  CandidateSelector chooser;
   chooser.start(800, 600, candidates);
   for (int i = 0; i < 5; ++i) chooser.add(horizontal(10, 40.0F + 10.0F * static_cast<float>(i), 80));
   EXPECT_EQ(chooser.next(), &candidates[1]);
 }
 
-TEST(SpreadChooser, ALineThatWasTakenMakesItsNeighboursWait) {
+TEST(CandidateSelector, ALineThatWasTakenMakesItsNeighboursWait) {
   const std::vector<LineSegment> candidates{horizontal(10, 20, 80), horizontal(10, 60, 80),
                                             horizontal(610, 420, 60)};
-  SpreadChooser chooser;
+  CandidateSelector chooser;
   chooser.start(800, 600, candidates);
   EXPECT_EQ(chooser.next(), &candidates[0]);
   chooser.add(candidates[0]);

@@ -72,16 +72,16 @@ TEST(EdgeDetector, FindsTrackedLinesNotAgain) {
   for (std::size_t i = 0; i < all.size(); i += 2) hints.tracked.push_back(all[i]);
   std::vector<LineSegment> rest;
   detector.detect(image, 30.0F, rest, hints);
-  EdgeIndex tracked({0.05F, 1.0F, 0.5F});
-  EdgeIndex found({0.05F, 1.0F, 0.5F});
+  SegmentIndex tracked({0.05F, 1.0F, 0.5F});
+  SegmentIndex found({0.05F, 1.0F, 0.5F});
   for (const LineSegment& line : hints.tracked) tracked.add(line);
   for (const LineSegment& line : rest) {
-    EXPECT_FALSE(tracked.holdsEdgeOf(line));
+    EXPECT_FALSE(tracked.containsDuplicateOf(line));
     found.add(line);
   }
   // The others are all there, as they were or in two pieces where a tracked line crosses them.
   for (std::size_t i = 1; i < all.size(); i += 2) {
-    EXPECT_TRUE(found.holdsEdgeOf(all[i])) << i;
+    EXPECT_TRUE(found.containsDuplicateOf(all[i])) << i;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
@@ -15,28 +16,31 @@ constexpr int kWidth = 320;
 constexpr int kHeight = 240;
 const LineSegment kLine{{100.4F, 80.7F}, {201.3F, 150.2F}};
 
-EndpointTrackerParameters published() {
-  return asPublished({}).flow;
-}
-
-EndpointFlow followShift(const EndpointTrackerParameters& parameters, const Eigen::Vector2f& shift) {
-  const EndpointTracker tracker(parameters);
-  const cv::Mat first_image = smoothImage(kWidth, kHeight, {0.0F, 0.0F});
-  const cv::Mat second_image = smoothImage(kWidth, kHeight, shift);
+EndpointFlow followInto(const EndpointTracker& tracker, const cv::Mat& first_image,
+                        const cv::Mat& second_image, int levels = 3) {
   ImagePyramid first, second;
-  first.build(first_image, parameters.pyramid_levels);
-  second.build(second_image, parameters.pyramid_levels);
+  first.build(first_image, levels);
+  second.build(second_image, levels);
   LineTemplate patches;
-  tracker.describe(first, kLine, patches);
+  tracker.extractTemplate(first, kLine, patches);
   return tracker.track(patches, second, kLine);
 }
 
-TEST(EndpointTracker, RecoversShiftsOfATenthToTenPixelsToWithinATwentieth) {
+EndpointFlow followShift(const EndpointTracker& tracker, const Eigen::Vector2f& shift, int levels = 3) {
+  return followInto(tracker, smoothImage(kWidth, kHeight, {0.0F, 0.0F}), smoothImage(kWidth, kHeight, shift),
+                    levels);
+}
+
+EndpointFlow followShift(const EndpointTrackerParameters& parameters, const Eigen::Vector2f& shift) {
+  return followShift(*makeTwoEndpointFlow(parameters), shift, parameters.pyramid_levels);
+}
+
+TEST(TwoEndpointFlow, RecoversShiftsOfATenthToTenPixelsToWithinATwentieth) {
   for (const float length : {0.1F, 0.25F, 0.5F, 0.9F, 1.0F, 2.3F, 3.5F, 5.0F, 7.7F, 10.0F}) {
     for (const Eigen::Vector2f& direction : {Eigen::Vector2f(1.0F, 0.0F), Eigen::Vector2f(0.0F, 1.0F),
                                              Eigen::Vector2f(0.6F, -0.8F), Eigen::Vector2f(-0.8F, -0.6F)}) {
       const Eigen::Vector2f shift = length * direction;
-      const EndpointFlow flow = followShift(published(), shift);
+      const EndpointFlow flow = followShift(EndpointTrackerParameters{}, shift);
       ASSERT_EQ(flow.status, EndpointFlow::Status::kTracked) << "shift " << shift.transpose();
       EXPECT_LT((flow.segment.start - kLine.start - shift).norm(), 0.05F) << "shift " << shift.transpose();
       EXPECT_LT((flow.segment.end - kLine.end - shift).norm(), 0.05F) << "shift " << shift.transpose();
@@ -44,10 +48,10 @@ TEST(EndpointTracker, RecoversShiftsOfATenthToTenPixelsToWithinATwentieth) {
   }
 }
 
-TEST(EndpointTracker, EndpointsScaleByTwoBetweenLevelsWithoutAnOffset) {
+TEST(TwoEndpointFlow, EndpointsScaleByTwoBetweenLevelsWithoutAnOffset) {
   // With one iteration on each level the coarse estimate must arrive at the right place of the fine one: any
   // wrong factor or half-pixel shift between levels would stay as an error of half a pixel and more.
-  EndpointTrackerParameters parameters = published();
+  EndpointTrackerParameters parameters;
   parameters.pyramid_levels = 4;
   for (const float shift : {-2.0F, 0.0F, 1.5F}) {
     const EndpointFlow flow = followShift(parameters, {shift, shift});
@@ -56,24 +60,24 @@ TEST(EndpointTracker, EndpointsScaleByTwoBetweenLevelsWithoutAnOffset) {
   }
 }
 
-TEST(EndpointTracker, ALargeShiftNeedsThePyramid) {
-  EndpointTrackerParameters one_level = published();
+TEST(TwoEndpointFlow, ALargeShiftNeedsThePyramid) {
+  EndpointTrackerParameters one_level;
   one_level.pyramid_levels = 1;
   const Eigen::Vector2f shift(9.0F, -9.0F);
   const EndpointFlow without = followShift(one_level, shift);
-  const EndpointFlow with = followShift(published(), shift);
+  const EndpointFlow with = followShift(EndpointTrackerParameters{}, shift);
   EXPECT_EQ(with.status, EndpointFlow::Status::kTracked);
   EXPECT_LT((with.segment.start - kLine.start - shift).norm(), 0.05F);
   EXPECT_GT((without.segment.start - kLine.start - shift).norm(), 1.0F);
 }
 
-TEST(EndpointTracker, ALineWhoseGrayValuesChangeIsAnOutlierHoweverManyIterations) {
-  const EndpointTracker tracker(published());
+TEST(TwoEndpointFlow, ALineWhoseGrayValuesChangeIsAnOutlierHoweverManyIterations) {
+  const auto tracker = makeTwoEndpointFlow({});
   const cv::Mat image = smoothImage(kWidth, kHeight, {0.0F, 0.0F});
   ImagePyramid first, second;
   first.build(image, 3);
   LineTemplate patches;
-  tracker.describe(first, kLine, patches);
+  tracker->extractTemplate(first, kLine, patches);
   // A coarse checkerboard over the picture adds a residual that no small movement takes away.
   const auto followUnder = [&](int gray) {
     cv::Mat disturbed = image.clone();
@@ -82,7 +86,7 @@ TEST(EndpointTracker, ALineWhoseGrayValuesChangeIsAnOutlierHoweverManyIterations
         disturbed.at<std::uint8_t>(y, x) += ((x / 4 + y / 4) % 2 == 0 ? gray : -gray);
     }
     second.build(disturbed, 3);
-    return tracker.track(patches, second, kLine);
+    return tracker->track(patches, second, kLine);
   };
   const EndpointFlow lost = followUnder(12);  // 12 / 255 = 0.047 is over the threshold of 0.02
   EXPECT_EQ(lost.status, EndpointFlow::Status::kHighResidual);
@@ -90,8 +94,8 @@ TEST(EndpointTracker, ALineWhoseGrayValuesChangeIsAnOutlierHoweverManyIterations
   EXPECT_EQ(followUnder(3).status, EndpointFlow::Status::kTracked);  // 0.012 is under it
 }
 
-TEST(EndpointTracker, BothEndpointsMustMeetTheResidual) {
-  const EndpointTracker tracker(published());
+TEST(TwoEndpointFlow, BothEndpointsMustMeetTheResidual) {
+  const auto tracker = makeTwoEndpointFlow({});
   const cv::Mat image = smoothImage(kWidth, kHeight, {0.0F, 0.0F});
   cv::Mat half_covered = image.clone();
   cv::circle(half_covered, cv::Point(201, 150), 12, cv::Scalar(255), cv::FILLED);
@@ -99,12 +103,12 @@ TEST(EndpointTracker, BothEndpointsMustMeetTheResidual) {
   first.build(image, 3);
   second.build(half_covered, 3);
   LineTemplate patches;
-  tracker.describe(first, kLine, patches);
-  EXPECT_NE(tracker.track(patches, second, kLine).status, EndpointFlow::Status::kTracked);
+  tracker->extractTemplate(first, kLine, patches);
+  EXPECT_NE(tracker->track(patches, second, kLine).status, EndpointFlow::Status::kTracked);
 }
 
-TEST(EndpointTracker, TheIterationsEndAtTheirLimit) {
-  EndpointTrackerParameters once = published();
+TEST(TwoEndpointFlow, TheIterationsEndAtTheirLimit) {
+  EndpointTrackerParameters once;
   once.pyramid_levels = 1;
   once.max_iterations = 1;
   EndpointTrackerParameters often = once;
@@ -116,18 +120,18 @@ TEST(EndpointTracker, TheIterationsEndAtTheirLimit) {
   EXPECT_LT(error_often, 0.05F);
 }
 
-TEST(EndpointTracker, WithoutTextureThereIsNoSolution) {
-  const EndpointTracker tracker(published());
+TEST(TwoEndpointFlow, WithoutTextureThereIsNoSolution) {
+  const auto tracker = makeTwoEndpointFlow({});
   const cv::Mat image(kHeight, kWidth, CV_8UC1, cv::Scalar(100));
   ImagePyramid pyramid;
   pyramid.build(image, 3);
   LineTemplate patches;
-  tracker.describe(pyramid, kLine, patches);
-  EXPECT_EQ(tracker.track(patches, pyramid, kLine).status, EndpointFlow::Status::kNoSolution);
+  tracker->extractTemplate(pyramid, kLine, patches);
+  EXPECT_EQ(tracker->track(patches, pyramid, kLine).status, EndpointFlow::Status::kNoSolution);
 }
 
-TEST(EndpointTracker, AnEndpointThatLeavesTheImageIsSaidToBeOutside) {
-  const EndpointTracker tracker(published());
+TEST(TwoEndpointFlow, AnEndpointThatLeavesTheImageIsSaidToBeOutside) {
+  const auto tracker = makeTwoEndpointFlow({});
   const Eigen::Vector2f shift(-9.0F, 0.0F);
   const cv::Mat first_image = smoothImage(kWidth, kHeight, {0.0F, 0.0F});
   const cv::Mat second_image = smoothImage(kWidth, kHeight, shift);
@@ -136,66 +140,54 @@ TEST(EndpointTracker, AnEndpointThatLeavesTheImageIsSaidToBeOutside) {
   second.build(second_image, 3);
   const LineSegment at_border{{4.0F, 80.0F}, {100.0F, 90.0F}};
   LineTemplate patches;
-  tracker.describe(first, at_border, patches);
-  EXPECT_EQ(tracker.track(patches, second, at_border).status, EndpointFlow::Status::kOutside);
+  tracker->extractTemplate(first, at_border, patches);
+  EXPECT_EQ(tracker->track(patches, second, at_border).status, EndpointFlow::Status::kOutside);
 }
 
-/// The joint estimate down to the full image, without the re-fit that follows it in the tracker.
-EndpointTrackerParameters joint() {
+/// The joint flow down to the full image, without the re-fit that follows it in the tracker.
+std::unique_ptr<EndpointTracker> joint(bool gain_and_offset = true) {
   EndpointTrackerParameters parameters;
   parameters.finest_level = 0;
-  return parameters;
+  parameters.gain_and_offset = gain_and_offset;
+  return makeJointFlow(parameters);
 }
 
-TEST(JointEstimate, RecoversShiftsToWithinATenth) {
+TEST(JointFlow, RecoversShiftsToWithinATenth) {
   for (const float length : {0.3F, 1.0F, 3.5F, 10.0F}) {
     const Eigen::Vector2f shift = length * Eigen::Vector2f(0.6F, -0.8F);
-    const EndpointFlow flow = followShift(joint(), shift);
+    const EndpointFlow flow = followShift(*joint(), shift);
     ASSERT_NE(flow.status, EndpointFlow::Status::kNoSolution) << length;
     EXPECT_LT((flow.segment.start - kLine.start - shift).norm(), 0.1F) << length;
     EXPECT_LT((flow.segment.end - kLine.end - shift).norm(), 0.1F) << length;
   }
 }
 
-EndpointFlow followInto(const EndpointTrackerParameters& parameters, const cv::Mat& first_image,
-                        const cv::Mat& second_image) {
-  const EndpointTracker tracker(parameters);
-  ImagePyramid first, second;
-  first.build(first_image, parameters.pyramid_levels);
-  second.build(second_image, parameters.pyramid_levels);
-  LineTemplate patches;
-  tracker.describe(first, kLine, patches);
-  return tracker.track(patches, second, kLine);
-}
-
-TEST(JointEstimate, AChangeOfGainAndOffsetDoesNotMoveALine) {
+TEST(JointFlow, AChangeOfGainAndOffsetDoesNotMoveALine) {
   const Eigen::Vector2f shift(2.0F, 1.0F);
   const cv::Mat first = smoothImage(kWidth, kHeight, {0.0F, 0.0F});
   cv::Mat second;
   smoothImage(kWidth, kHeight, shift).convertTo(second, -1, 0.6, 30.0);
-  const auto errorOf = [&](const EndpointTrackerParameters& parameters) {
-    const EndpointFlow flow = followInto(parameters, first, second);
+  const auto errorOf = [&](const EndpointTracker& tracker) {
+    const EndpointFlow flow = followInto(tracker, first, second);
     return std::max((flow.segment.start - kLine.start - shift).norm(),
                     (flow.segment.end - kLine.end - shift).norm());
   };
-  EndpointTrackerParameters without = joint();
-  without.gain_and_offset = false;
-  EXPECT_LT(errorOf(joint()), 0.1F);
-  EXPECT_GT(errorOf(without), 0.3F);
+  EXPECT_LT(errorOf(*joint(true)), 0.1F);
+  EXPECT_GT(errorOf(*joint(false)), 0.3F);
 }
 
-TEST(JointEstimate, ACoveredEndDoesNotPullTheLineAway) {
+TEST(JointFlow, ACoveredEndDoesNotPullTheLineAway) {
   const Eigen::Vector2f shift(1.5F, -1.0F);
   const cv::Mat first = smoothImage(kWidth, kHeight, {0.0F, 0.0F});
   cv::Mat second = smoothImage(kWidth, kHeight, shift);
   cv::circle(second, cv::Point(203, 149), 14, cv::Scalar(250), cv::FILLED);
-  const EndpointFlow flow = followInto(joint(), first, second);
+  const EndpointFlow flow = followInto(*joint(), first, second);
   ASSERT_NE(flow.status, EndpointFlow::Status::kNoSolution);
   EXPECT_LT((flow.segment.start - kLine.start - shift).norm(), 0.2F);
   EXPECT_LT(std::abs(flow.segment.distance(kLine.middle() + shift)), 0.2F);
 }
 
-TEST(JointEstimate, AlongABareEdgeEndpointsHardlySlide) {
+TEST(JointFlow, AlongABareEdgeEndpointsHardlySlide) {
   // Nothing but an edge: across it the place is known, along it only the expectation is.
   const auto edge = [](float shift) {
     cv::Mat image(kHeight, kWidth, CV_8UC1);
@@ -209,7 +201,7 @@ TEST(JointEstimate, AlongABareEdgeEndpointsHardlySlide) {
     }
     return image;
   };
-  const EndpointFlow flow = followInto(joint(), edge(0.0F), edge(2.0F));
+  const EndpointFlow flow = followInto(*joint(), edge(0.0F), edge(2.0F));
   EXPECT_NEAR(kLine.distance(flow.segment.start), 2.0F, 0.1F);
   EXPECT_NEAR(kLine.distance(flow.segment.end), 2.0F, 0.1F);
   EXPECT_NEAR(kLine.along(flow.segment.start), 0.0F, 4.0F);

@@ -17,14 +17,14 @@ LineSegment along(float angle, float offset, float begin, float end) {
 }
 
 TEST(SameEdge, IsParallelNearAndSideBySide) {
-  const SameEdgeLimits limits{0.1F, 4.0F, 0.2F};
+  const DuplicateCriteria limits{0.1F, 4.0F, 0.2F};
   const LineSegment line = along(0.3F, 0.0F, 0.0F, 100.0F);
-  EXPECT_TRUE(onSameEdge(line, along(0.33F, 2.0F, 20.0F, 70.0F), limits));
-  EXPECT_FALSE(onSameEdge(line, along(0.45F, 0.0F, 20.0F, 70.0F), limits)) << "turned";
-  EXPECT_FALSE(onSameEdge(line, along(0.3F, 6.0F, 20.0F, 70.0F), limits)) << "beside";
-  EXPECT_FALSE(onSameEdge(line, along(0.3F, 0.0F, 110.0F, 170.0F), limits)) << "behind";
+  EXPECT_TRUE(areDuplicates(line, along(0.33F, 2.0F, 20.0F, 70.0F), limits));
+  EXPECT_FALSE(areDuplicates(line, along(0.45F, 0.0F, 20.0F, 70.0F), limits)) << "turned";
+  EXPECT_FALSE(areDuplicates(line, along(0.3F, 6.0F, 20.0F, 70.0F), limits)) << "beside";
+  EXPECT_FALSE(areDuplicates(line, along(0.3F, 0.0F, 110.0F, 170.0F), limits)) << "behind";
   const LineSegment back = along(0.3F, 1.0F, 70.0F, 20.0F);
-  EXPECT_FALSE(onSameEdge(line, back, limits)) << "the other side of a dark line";
+  EXPECT_FALSE(areDuplicates(line, back, limits)) << "the other side of a dark line";
 }
 
 TEST(SameEdge, AnIndexFindsWhatEveryPairWouldShow) {
@@ -32,8 +32,8 @@ TEST(SameEdge, AnIndexFindsWhatEveryPairWouldShow) {
   const auto uniform = [&generator](float low, float high) {
     return std::uniform_real_distribution<float>(low, high)(generator);
   };
-  const SameEdgeLimits limits{0.2F, 4.0F, 0.2F};
-  EdgeIndex index(limits);
+  const DuplicateCriteria limits{0.2F, 4.0F, 0.2F};
+  SegmentIndex index(limits);
   for (int round = 0; round < 2; ++round) {
     index.clear();
     std::vector<LineSegment> all;
@@ -43,8 +43,8 @@ TEST(SameEdge, AnIndexFindsWhatEveryPairWouldShow) {
       const LineSegment line =
           along(uniform(0.0F, 6.2832F), uniform(-20.0F, 20.0F), begin, begin + uniform(20.0F, 80.0F));
       bool any = false;
-      for (const LineSegment& other : all) any |= onSameEdge(line, other, limits);
-      EXPECT_EQ(index.holdsEdgeOf(line), any) << i;
+      for (const LineSegment& other : all) any |= areDuplicates(line, other, limits);
+      EXPECT_EQ(index.containsDuplicateOf(line), any) << i;
       held += any ? 1 : 0;
       index.add(line);
       all.push_back(line);

@@ -95,7 +95,7 @@ TEST_P(Allocations, AreNoneInSteadyState) {
   bool detected = false;
   const auto track = [&] {
     for (const cv::Mat& image : all) {
-      const LineFrame* frame = tracker.process(image, stamp += 50000000);
+      const LineFrame* frame = tracker.process(image, stamp += 50000000).frame;
       lines += frame->lines.size();
       detected |= frame->detected;
     }

@@ -34,7 +34,8 @@ TEST(LineTracker, LinesKeepTheirIdsOverFiftyImagesAndFollowTheEdges) {
   LineTracker tracker(boxParameters());
   std::map<std::uint64_t, LineSegment> first;
   for (int k = 0; k < 50; ++k) {
-    const LineFrame* frame = tracker.process(boxesImage(kWidth, kHeight, shiftAt(k)), kStart + k * kPeriod);
+    const LineFrame* frame =
+        tracker.process(boxesImage(kWidth, kHeight, shiftAt(k)), kStart + k * kPeriod).frame;
     ASSERT_NE(frame, nullptr);
     EXPECT_EQ(frame->epoch, 0U);
     EXPECT_EQ(frame->image_count, static_cast<std::uint64_t>(k + 1));
@@ -63,8 +64,8 @@ TEST(LineTracker, TheSameImagesGiveTheSameLinesOnAnyNumberOfThreads) {
   LineTracker b(threaded);
   for (int k = 0; k < 10; ++k) {
     const cv::Mat image = boxesImage(kWidth, kHeight, shiftAt(k));
-    const LineFrame* in_a = a.process(image, kStart + k * kPeriod);
-    const LineFrame* in_b = b.process(image, kStart + k * kPeriod);
+    const LineFrame* in_a = a.process(image, kStart + k * kPeriod).frame;
+    const LineFrame* in_b = b.process(image, kStart + k * kPeriod).frame;
     ASSERT_EQ(in_a->lines.size(), in_b->lines.size());
     for (std::size_t i = 0; i < in_a->lines.size(); ++i) {
       EXPECT_EQ(in_a->lines[i].id, in_b->lines[i].id);
@@ -78,10 +79,10 @@ TEST(LineTracker, AResetBeginsAnEpochWithNewIds) {
   LineTracker tracker(boxParameters());
   const cv::Mat image = boxesImage(kWidth, kHeight, {0.0F, 0.0F});
   std::set<std::uint64_t> ids;
-  const std::size_t lines = tracker.process(image, kStart)->lines.size();
-  for (const TrackedLine& line : tracker.process(image, kStart + kPeriod)->lines) ids.insert(line.id);
+  const std::size_t lines = tracker.process(image, kStart).frame->lines.size();
+  for (const TrackedLine& line : tracker.process(image, kStart + kPeriod).frame->lines) ids.insert(line.id);
   EXPECT_EQ(tracker.reset(), lines);
-  const LineFrame* frame = tracker.process(image, kStart + 2 * kPeriod);
+  const LineFrame* frame = tracker.process(image, kStart + 2 * kPeriod).frame;
   EXPECT_EQ(frame->epoch, 1U);
   EXPECT_EQ(frame->image_count, 1U);
   EXPECT_TRUE(frame->detected);
@@ -99,9 +100,9 @@ TEST(LineTracker, DetectsAgainOnlyWhenLinesRunShortAndNeverOnTopOfATrackedOne) {
   parameters.detection.min_lines = 30;  // more than there are: the detector runs on every image
   LineTracker tracker(parameters);
   const cv::Mat image = boxesImage(kWidth, kHeight, {0.0F, 0.0F});
-  const std::size_t lines = tracker.process(image, kStart)->lines.size();
+  const std::size_t lines = tracker.process(image, kStart).frame->lines.size();
   for (int k = 1; k < 5; ++k) {
-    const LineFrame* frame = tracker.process(image, kStart + k * kPeriod);
+    const LineFrame* frame = tracker.process(image, kStart + k * kPeriod).frame;
     EXPECT_TRUE(frame->detected);
     EXPECT_LE(frame->lines.size(), lines + 1);
     EXPECT_EQ(frame->statistics.tracks_kept, frame->statistics.tracks_before);
@@ -115,8 +116,10 @@ TEST(LineTracker, NeverHoldsMoreThanMaxLinesNorLinesOutsideOrTooShort) {
   parameters.detection.border = 3.0;
   LineTracker tracker(parameters);
   for (int k = 0; k < 40; ++k) {
-    const LineFrame* frame = tracker.process(
-        boxesImage(kWidth, kHeight, {-8.0F * static_cast<float>(k), 0.0F}), kStart + k * kPeriod);
+    const LineFrame* frame =
+        tracker
+            .process(boxesImage(kWidth, kHeight, {-8.0F * static_cast<float>(k), 0.0F}), kStart + k * kPeriod)
+            .frame;
     EXPECT_LE(frame->lines.size(), 7U);
     for (const TrackedLine& line : frame->lines) {
       EXPECT_GE(line.segment.length(), 70.0F);
@@ -129,13 +132,13 @@ TEST(LineTracker, NeverHoldsMoreThanMaxLinesNorLinesOutsideOrTooShort) {
 TEST(LineTracker, AWhiteWallGivesNoLinesAndNoError) {
   LineTracker tracker(LineTrackerParameters{});
   const cv::Mat wall(240, 320, CV_8UC1, cv::Scalar(255));
-  for (int k = 0; k < 3; ++k) EXPECT_TRUE(tracker.process(wall, kStart + k * kPeriod)->lines.empty());
+  for (int k = 0; k < 3; ++k) EXPECT_TRUE(tracker.process(wall, kStart + k * kPeriod).frame->lines.empty());
 }
 
 TEST(LineTracker, EndpointsAreNormalizedWithACameraAndNotANumberWithout) {
   LineTracker tracker(boxParameters());
   const cv::Mat image = boxesImage(kWidth, kHeight, {0.0F, 0.0F});
-  for (const TrackedLine& line : tracker.process(image, kStart)->lines) {
+  for (const TrackedLine& line : tracker.process(image, kStart).frame->lines) {
     EXPECT_TRUE(std::isnan(line.start_normalized.x()));
   }
   CameraCalibration calibration;
@@ -144,7 +147,7 @@ TEST(LineTracker, EndpointsAreNormalizedWithACameraAndNotANumberWithout) {
   calibration.cx = 320.0;
   calibration.cy = 200.0;
   tracker.setCamera(makeCameraModel(calibration));
-  for (const TrackedLine& line : tracker.process(image, kStart + kPeriod)->lines) {
+  for (const TrackedLine& line : tracker.process(image, kStart + kPeriod).frame->lines) {
     EXPECT_NEAR(line.start_normalized.x(), (line.segment.start.x() - 320.0) / 400.0, 1e-6);
     EXPECT_NEAR(line.end_normalized.y(), (line.segment.end.y() - 200.0) / 400.0, 1e-6);
   }
@@ -173,8 +176,11 @@ TEST(LineTracker, AWideLensCutsLinesWhereTheyCannotBeNormalizedAndCountsThem) {
     std::uint32_t left_out_at_first = 0;
     std::uint32_t lost = 0;
     for (int k = 0; k < 60; ++k) {
-      const LineFrame* frame = tracker.process(
-          boxesImage(kWidth, kHeight, {-2.0F * static_cast<float>(k), 0.0F}), kStart + k * kPeriod);
+      const LineFrame* frame =
+          tracker
+              .process(boxesImage(kWidth, kHeight, {-2.0F * static_cast<float>(k), 0.0F}),
+                       kStart + k * kPeriod)
+              .frame;
       ASSERT_GE(frame->lines.size(), 5U) << "image " << k;
       for (const TrackedLine& line : frame->lines) {
         ASSERT_TRUE(line.start_normalized.allFinite() && line.end_normalized.allFinite());
@@ -188,7 +194,7 @@ TEST(LineTracker, AWideLensCutsLinesWhereTheyCannotBeNormalizedAndCountsThem) {
       if (k == 0) left_out_at_first = frame->statistics.lines_left_out;
       cut += frame->statistics.lines_cut;
       left_out += frame->statistics.lines_left_out;
-      lost += frame->statistics.lost[static_cast<std::size_t>(LossReason::kBorder)];
+      lost += frame->statistics.lostFor(LossReason::kFieldOfView);
     }
     EXPECT_GE(cut_at_first, 3U);
     EXPECT_GE(left_out_at_first, 3U);
@@ -208,15 +214,15 @@ TEST(LineTracker, WithoutAWideLensNothingIsCut) {
   pinhole.cx = 320.0;
   pinhole.cy = 200.0;
   const cv::Mat image = boxesImage(kWidth, kHeight, {0.0F, 0.0F});
-  const std::size_t lines = tracker.process(image, kStart)->lines.size();
+  const std::size_t lines = tracker.process(image, kStart).frame->lines.size();
   EXPECT_GE(lines, 18U);
   tracker.setCamera(makeCameraModel(pinhole));
-  const LineFrame* frame = tracker.process(image, kStart + kPeriod);
+  const LineFrame* frame = tracker.process(image, kStart + kPeriod).frame;
   EXPECT_EQ(frame->lines.size(), lines);
   EXPECT_EQ(frame->statistics.lines_cut + frame->statistics.lines_left_out, 0U);
   // A lens that comes later counts from the next image on.
   tracker.setCamera(wideCamera());
-  frame = tracker.process(image, kStart + 2 * kPeriod);
+  frame = tracker.process(image, kStart + 2 * kPeriod).frame;
   EXPECT_LT(frame->lines.size(), lines);
   EXPECT_GT(frame->statistics.lines_cut, 0U);
   EXPECT_GT(frame->statistics.lines_left_out, 0U);
@@ -227,8 +233,8 @@ TEST(LineTracker, RefusesBrokenParametersAndImagesThatAreNotGray) {
   parameters.flow.window_px = 4;
   EXPECT_THROW(LineTracker{parameters}, std::invalid_argument);
   LineTracker tracker(LineTrackerParameters{});
-  EXPECT_THROW(tracker.process(cv::Mat(), kStart), std::invalid_argument);
-  EXPECT_THROW(tracker.process(cv::Mat(10, 10, CV_8UC3), kStart), std::invalid_argument);
+  EXPECT_THROW(tracker.process(cv::Mat(), kStart).frame, std::invalid_argument);
+  EXPECT_THROW(tracker.process(cv::Mat(10, 10, CV_8UC3), kStart).frame, std::invalid_argument);
 }
 
 TEST(LineTracker, LinesBeginAndGoOnOnlyWhereTheMaskIsWhite) {
@@ -239,14 +245,16 @@ TEST(LineTracker, LinesBeginAndGoOnOnlyWhereTheMaskIsWhite) {
   std::uint32_t lost = 0;
   std::size_t first = 0;
   for (int k = 0; k < 40; ++k) {
-    const LineFrame* frame = tracker.process(
-        boxesImage(kWidth, kHeight, {4.0F * static_cast<float>(k), 0.0F}), kStart + k * kPeriod);
+    const LineFrame* frame =
+        tracker
+            .process(boxesImage(kWidth, kHeight, {4.0F * static_cast<float>(k), 0.0F}), kStart + k * kPeriod)
+            .frame;
     if (k == 0) first = frame->lines.size();
     for (const TrackedLine& line : frame->lines) {
       // At least half of each line is in the white part, but for rounding.
       EXPECT_LT(line.segment.middle().x(), 361.0F) << "image " << k;
     }
-    lost += frame->statistics.lost[static_cast<std::size_t>(LossReason::kMask)];
+    lost += frame->statistics.lostFor(LossReason::kMask);
   }
   EXPECT_GE(first, 10U);
   EXPECT_LE(first, 12U);
@@ -257,12 +265,12 @@ TEST(LineTracker, AMaskOfAnotherSizeDoesNotCountAndOneOfAnotherTypeIsRefused) {
   LineTracker tracker(boxParameters());
   tracker.setMask(cv::Mat(kHeight, kWidth + 1, CV_8UC1, cv::Scalar(0)));
   const cv::Mat image = boxesImage(kWidth, kHeight, {0.0F, 0.0F});
-  EXPECT_GE(tracker.process(image, kStart)->lines.size(), 18U);
+  EXPECT_GE(tracker.process(image, kStart).frame->lines.size(), 18U);
   tracker.setMask(cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(0)));
-  EXPECT_TRUE(tracker.process(image, kStart + kPeriod)->lines.empty());
+  EXPECT_TRUE(tracker.process(image, kStart + kPeriod).frame->lines.empty());
   tracker.setMask(cv::Mat());
-  EXPECT_GE(tracker.process(image, kStart + 2 * kPeriod)->lines.size() +
-                tracker.process(image, kStart + 5 * kPeriod)->lines.size(),
+  EXPECT_GE(tracker.process(image, kStart + 2 * kPeriod).frame->lines.size() +
+                tracker.process(image, kStart + 5 * kPeriod).frame->lines.size(),
             18U);
   EXPECT_THROW(tracker.setMask(cv::Mat(kHeight, kWidth, CV_8UC3)), std::invalid_argument);
 }
@@ -271,7 +279,7 @@ TEST(LineTracker, AnyImageSizeIsTracked) {
   for (const cv::Size size : {cv::Size(1, 1), cv::Size(7, 3), cv::Size(17, 16), cv::Size(33, 61)}) {
     LineTracker tracker(LineTrackerParameters{});
     for (int k = 0; k < 3; ++k) {
-      EXPECT_NE(tracker.process(smoothImage(size.width, size.height, shiftAt(k)), kStart + k * kPeriod),
+      EXPECT_NE(tracker.process(smoothImage(size.width, size.height, shiftAt(k)), kStart + k * kPeriod).frame,
                 nullptr);
     }
   }
@@ -287,7 +295,8 @@ TEST(LineTracker, StandingStillKeepsEveryLineAndItsEnds) {
     random.fill(noise, cv::RNG::NORMAL, 0.0, 3.0);
     cv::Mat image;
     cv::add(scene, noise, image, cv::noArray(), CV_8U);
-    const LineFrame* frame = tracker.process(image, 1000000000 + 50000000 * static_cast<std::int64_t>(i));
+    const LineFrame* frame =
+        tracker.process(image, 1000000000 + 50000000 * static_cast<std::int64_t>(i)).frame;
     ASSERT_NE(frame, nullptr);
     if (i == 0) first = frame->lines;
     ASSERT_EQ(frame->lines.size(), first.size()) << i;

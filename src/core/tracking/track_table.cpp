@@ -1,0 +1,36 @@
+#include "tracking/track_table.h"
+
+#include <utility>
+
+namespace tet_line_tracker {
+
+void TrackTable::add(const LineSegment& segment, float contrast) {
+  TrackedLine& line = lines_.emplace_back();
+  line.id = next_id_++;
+  line.segment = segment;
+  if (states_.size() < lines_.size()) states_.resize(lines_.size());
+  TrackState& state = states_[lines_.size() - 1];
+  state.contrast = contrast;
+  state.start_parallax.setZero();
+  state.end_parallax.setZero();
+  state.loss = LossReason::kCount;
+}
+
+void TrackTable::removeLost(FrameStatistics& statistics) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    if (states_[i].lost()) {
+      ++statistics.lostFor(states_[i].loss);
+      continue;
+    }
+    if (kept != i) {
+      lines_[kept] = lines_[i];
+      std::swap(states_[kept], states_[i]);
+    }
+    ++kept;
+  }
+  lines_.resize(kept);
+  statistics.tracks_kept = static_cast<std::uint32_t>(kept);
+}
+
+}  // namespace tet_line_tracker

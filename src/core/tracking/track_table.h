@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "tet_line_tracker/flow/endpoint_tracker.h"
+#include "tet_line_tracker/geometry/line_segment.h"
+#include "tet_line_tracker/tracking/line_frame.h"
+
+namespace tet_line_tracker {
+
+/// What is known of a track besides what is published.
+struct TrackState {
+  LineTemplate patches;  ///< from the last image
+  float contrast{0.0F};  ///< across the edge, positive where the left side is brighter [gray / px]
+  /// Movement of the ends beyond the rotation of the camera, predicted for the next image [px]
+  Eigen::Vector2f start_parallax{Eigen::Vector2f::Zero()};
+  Eigen::Vector2f end_parallax{Eigen::Vector2f::Zero()};
+
+  // Of the step from the last image to this one:
+  LineSegment rotated;      ///< the line of the last image, moved by the rotation of the camera [px]
+  LineSegment predicted;    ///< the same, moved by the predicted parallax as well [px]
+  LineSegment followed;     ///< where the flow found the line [px]
+  float edge_offset{0.0F};  ///< of the edge from `followed`, at its middle [px]
+  float support{1.0F};      ///< share of the line that lies on an edge, 0..1
+  LossReason loss{LossReason::kCount};  ///< kCount: not lost
+
+  bool lost() const { return loss != LossReason::kCount; }
+};
+
+/// The tracks of an image, oldest first.
+class TrackTable {
+ public:
+  std::size_t size() const { return lines_.size(); }
+  TrackedLine& line(std::size_t i) { return lines_[i]; }
+  TrackState& state(std::size_t i) { return states_[i]; }
+  const std::vector<TrackedLine>& lines() const { return lines_; }
+  std::vector<TrackedLine>& lines() { return lines_; }
+
+  /// Starts a track with the next id.
+  void add(const LineSegment& segment, float contrast);
+
+  /// Removes the lost tracks and counts them by reason; the others keep their order.
+  void removeLost(FrameStatistics& statistics);
+
+  void clear() { lines_.clear(); }
+
+ private:
+  std::vector<TrackedLine> lines_;
+  /// Of lines_, in their order; more may wait at the end with their buffers.
+  std::vector<TrackState> states_;
+  std::uint64_t next_id_{0};
+};
+
+}  // namespace tet_line_tracker

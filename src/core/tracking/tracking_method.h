@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+
+#include "tet_line_tracker/flow/endpoint_tracker.h"
+#include "tet_line_tracker/motion/motion_prior.h"
+#include "tet_line_tracker/parameters/parameters.h"
+#include "tet_line_tracker/refinement/line_refiner.h"
+#include "tracking/checks.h"
+#include "tracking/detection_policy.h"
+#include "tracking/track_initializer.h"
+
+namespace tet_line_tracker {
+
+/// The parts of a tracking method. Whoever uses them does not know which method it is.
+struct TrackingMethod {
+  MotionPriorParameters motion;
+  std::unique_ptr<EndpointTracker> flow;
+  float dead_band_px{0.0F};              ///< ends that move less than this between images stay in place
+  std::unique_ptr<LineRefiner> refiner;  ///< nullptr: lines stay where the flow puts them
+  TrackChecks checks;                    ///< in this order
+  std::unique_ptr<DetectionPolicy> detection_policy;
+  std::unique_ptr<TrackInitializer> initializer;
+};
+
+/// The method that `parameters.method` names, made of its parts. Throws std::invalid_argument with every
+/// broken rule of check(), or when the detector is not available.
+TrackingMethod makeTrackingMethod(const LineTrackerParameters& parameters);
+
+}  // namespace tet_line_tracker
