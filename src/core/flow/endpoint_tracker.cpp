@@ -98,7 +98,6 @@ EndpointFlow EndpointTracker::track(const LineTemplate& patches, const ImagePyra
     // A coarse level shows little of the texture: its residual decides nothing.
     const bool poor_but_coarse = flow.status == Status::kHighResidual && j > finest;
     if (flow.status != Status::kTracked && !poor_but_coarse) return flow;
-    if (j == finest && layout_.max_patches > 2 && flow.residual >= parameters_.max_residual) return flow;
     flow.segment = {at_level.start / scale, at_level.end / scale};
   }
   return flow;
