@@ -133,6 +133,7 @@ void LineTrackerNodelet::subscribe() {
   NODELET_INFO("tracks lines of %s (%s), method %s, detector %s", image_subscriber_.getTopic().c_str(),
                image_subscriber_.getTransport().c_str(), tracker_parameters_.method.c_str(),
                tracker_->detectorName().c_str());
+  for (const std::string& note : tracker_->notes()) NODELET_WARN("%s", note.c_str());
 }
 
 void LineTrackerNodelet::onImage(const sensor_msgs::ImageConstPtr& image) {

@@ -116,6 +116,9 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
   }
 
   LineTracker tracker(tracker_parameters);
+  if (arguments.tracker == "tet") {
+    for (const std::string& note : tracker.notes()) std::cerr << "track_bag: " << note << '\n';
+  }
   std::unique_ptr<LineFrontEnd> baseline;
   if (arguments.tracker != "tet") {
     baseline = makeBaselineTracker(arguments.tracker, tracker_parameters);

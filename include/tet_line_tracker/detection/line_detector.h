@@ -48,8 +48,10 @@ class LineDetector {
 /// OpenCV 4.1.0 to 4.5.3. Best first.
 std::vector<std::string> availableDetectors();
 
-/// Detector by name; "auto" takes the first available one. Throws std::invalid_argument that names the
-/// detector, the OpenCV version and the detectors that do work.
-std::unique_ptr<LineDetector> makeLineDetector(const std::string& name);
+/// Detector by name; "auto" takes the first of `preferred` that is available. Throws std::invalid_argument
+/// that names the detector, the OpenCV version and the detectors that do work.
+std::unique_ptr<LineDetector> makeLineDetector(const std::string& name,
+                                               const std::vector<std::string>& preferred = {"edge", "lsd",
+                                                                                            "fld"});
 
 }  // namespace tet_line_tracker

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -43,6 +44,8 @@ class LineTracker : public LineFrontEnd {
   const LineTrackerParameters& parameters() const;
   /// Detector in use, as in the parameter `detector`.
   std::string detectorName() const;
+  /// One sentence for each parameter that cannot be used as it was given, to be shown to the user.
+  const std::vector<std::string>& notes() const;
 
  private:
   class Implementation;

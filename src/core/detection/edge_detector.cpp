@@ -33,7 +33,7 @@ constexpr int kMinGap = 2;             // [px]
 constexpr int kMaxGap = 8;             // [px]
 constexpr int kHitsPerGapPixel = 8;    // a line must be long to jump far
 
-constexpr std::size_t kTurns = 8;  // through the anchors
+constexpr std::size_t kPasses = 8;  // through the anchors
 
 // Marks in the gradient magnitude.
 constexpr std::int16_t kTaken = 1;  // a line lies here
@@ -270,9 +270,9 @@ void EdgeDetector::find(const cv::Mat& gray, float min_length, const DetectionHi
   ridge_threshold_ = static_cast<std::int16_t>(kRidgeShare * static_cast<float>(anchor_threshold_));
   for (const LineSegment& line : hints.tracked) markTracked(line);
   collectAnchors(min_length, hints.mask);
-  // Spread over the image and over the lines in every turn: long lines, which have many anchors, come early.
-  for (std::size_t turn = 0; turn < kTurns; ++turn) {
-    for (std::size_t i = turn; i < anchors_.size(); i += kTurns) {
+  // Spread over the image and over the lines in every pass: long lines, which have many anchors, come early.
+  for (std::size_t pass = 0; pass < kPasses; ++pass) {
+    for (std::size_t i = pass; i < anchors_.size(); i += kPasses) {
       if (lines.size() >= hints.enough) return;
       drawLine(anchors_[i], min_length, lines);
     }

@@ -104,12 +104,14 @@ std::vector<std::string> availableDetectors() {
   return kAvailable;
 }
 
-std::unique_ptr<LineDetector> makeLineDetector(const std::string& name) {
+std::unique_ptr<LineDetector> makeLineDetector(const std::string& name,
+                                               const std::vector<std::string>& preferred) {
   const std::vector<std::string> available = availableDetectors();
-  const bool automatic = name == "auto";
-  for (const Candidate& candidate : candidates()) {
-    const bool usable = std::find(available.begin(), available.end(), candidate.name) != available.end();
-    if (usable && (automatic || candidate.name == name)) return candidate.make();
+  for (const std::string& wanted : name == "auto" ? preferred : std::vector<std::string>{name}) {
+    if (std::find(available.begin(), available.end(), wanted) == available.end()) continue;
+    for (const Candidate& candidate : candidates()) {
+      if (candidate.name == wanted) return candidate.make();
+    }
   }
   std::string list;
   for (const std::string& other : available) list += (list.empty() ? "" : ", ") + other;

@@ -36,7 +36,7 @@ class JointLevel {
   Status track(bool finest, LineSegment& segment, float& residual) {
     const LineSegment expected = segment;
     const float last_step = finest ? kFineStep : kCoarseStep;
-    for (int iteration = 0;; ++iteration) {
+    for (int iteration = 1;; ++iteration) {
       if (!matchPatches(segment)) return Status::kOutside;
       if (parameters_.robust_patches) computeGemanMcClureWeights(matches_.data(), count_);
       JointEquations equations;

@@ -11,29 +11,25 @@ namespace {
 /// both directions.
 constexpr float kMinDeterminant = 1e-4F;
 
-/// The last step on a coarse level, in multiples of the last step on the finest one.
-constexpr float kCoarseSteps = 20.0F;
-
 class TwoEndpointFlow : public EndpointTracker {
  public:
   explicit TwoEndpointFlow(const EndpointTrackerParameters& parameters)
       : EndpointTracker(parameters, {0, 2, false}) {}
 
  private:
-  Status trackOnLevel(const PatchRow& row, const cv::Mat& image, bool finest, LineSegment& segment,
+  Status trackOnLevel(const PatchRow& row, const cv::Mat& image, bool, LineSegment& segment,
                       float& residual) const override {
-    const float last_step = static_cast<float>((finest ? 1.0F : kCoarseSteps) * parameters().min_step);
     float start_residual = 0.0F;
     float end_residual = 0.0F;
-    const Status start = trackEndpoint(row.patches.front(), image, last_step, segment.start, start_residual);
+    const Status start = trackEndpoint(row.patches.front(), image, segment.start, start_residual);
     if (start != Status::kTracked && start != Status::kHighResidual) return start;
-    const Status end = trackEndpoint(row.patches[row.count - 1], image, last_step, segment.end, end_residual);
+    const Status end = trackEndpoint(row.patches[row.count - 1], image, segment.end, end_residual);
     // Both endpoints must satisfy the termination condition.
     residual = std::max(start_residual, end_residual);
     return end == Status::kTracked ? start : end;
   }
 
-  Status trackEndpoint(const Patch& patch, const cv::Mat& image, float last_step, Eigen::Vector2f& point,
+  Status trackEndpoint(const Patch& patch, const cv::Mat& image, Eigen::Vector2f& point,
                        float& residual) const {
     const kernels::PatchShape shape = kernels::PatchShape::ofSide(parameters().window_px);
     const float pixels = static_cast<float>(shape.side * shape.side);
@@ -53,7 +49,7 @@ class TwoEndpointFlow : public EndpointTracker {
       const Eigen::Vector2f step = -(inverse * match.slope);
       // The paper ends on a small residual alone, which smooth texture reaches long before the sub-pixel
       // position. A step this small leaves the residual as it is.
-      const bool converged = step.norm() < last_step;
+      const bool converged = step.norm() < static_cast<float>(parameters().min_step);
       if (converged) point += step;
       if (converged || iteration == parameters().max_iterations) {
         return residual < parameters().max_residual ? Status::kTracked : Status::kHighResidual;

@@ -95,11 +95,11 @@ struct EdgeSamples {
   int count;
 };
 
-/// Offset of the edge from the line: offset + turn * place [px].
+/// Offset of the edge from the line: offset + tilt * place [px].
 struct OffsetFit {
   float offset{0.0F};
-  float turn{0.0F};
-  float at(float place) const { return offset + turn * place; }
+  float tilt{0.0F};
+  float at(float place) const { return offset + tilt * place; }
 };
 
 /// The inner loops. Every table gives the same bits: plain IEEE operations on vectors of eight, in the same

@@ -55,7 +55,7 @@ ParameterTable tableOf(LineRefinerParameters& p) {
 ParameterTable tableOf(DetectionParameters& p) {
   ParameterTable table;
   table.add("detector", p.detector, {"auto", "edge", "lsd", "fld"},
-            "Line detector; `auto`: the best one that works with the OpenCV at hand");
+            "Line detector; `auto`: `edge`, for method `paper` LSD where OpenCV has it");
   table.add("min_length", p.min_length, 5.0, 1000.0, "px", "Shorter lines are neither started nor kept");
   table.add("min_lines", p.min_lines, 0, 1000, "", "The detector runs when fewer lines are left");
   table.add("max_lines", p.max_lines, 1, 1000, "", "Lines tracked at a time");

@@ -135,7 +135,7 @@ kernels::OffsetFit fitOffsets(const kernels::EdgeSamples& samples, float min_slo
     const float determinant = w * wpp - wp * wp;
     if (determinant < 1e-3F) break;
     fit.offset = (wpp * wo - wp * wpo) / determinant;
-    fit.turn = (w * wpo - wp * wo) / determinant;
+    fit.tilt = (w * wpo - wp * wo) / determinant;
   }
   return fit;
 }

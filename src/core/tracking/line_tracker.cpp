@@ -33,6 +33,7 @@ class LineTracker::Implementation {
   MotionPrior& prior() { return prior_; }
   const LineTrackerParameters& parameters() const { return parameters_; }
   std::string detectorName() const { return method_.initializer->detectorName(); }
+  const std::vector<std::string>& notes() const { return method_.notes; }
 
  private:
   void startEpoch();
@@ -140,9 +141,10 @@ void LineTracker::Implementation::followTrack(const MotionPrediction& motion, Tr
       break;
   }
   // Inside the dead band a line keeps its ends, which noise would otherwise let wander along it.
-  const bool moved = (flow.segment.start - line.segment.start).norm() >= method_.dead_band_px ||
-                     (flow.segment.end - line.segment.end).norm() >= method_.dead_band_px;
-  if (moved) line.segment = flow.segment;
+  const float moved = std::max((flow.segment.start - state.reference.start).norm(),
+                               (flow.segment.end - state.reference.end).norm());
+  state.template_due = moved >= method_.dead_band_px || flow.residual > method_.max_kept_residual;
+  line.segment = state.template_due ? flow.segment : state.reference;
   state.followed = line.segment;
   line.residual = flow.residual;
   ++line.age;
@@ -207,7 +209,10 @@ float LineTracker::Implementation::coverage() const {
 
 void LineTracker::Implementation::extractTemplates() {
   workers_.run(tracks_.size(), [this](std::size_t i) {
-    method_.flow->extractTemplate(pyramid_, tracks_.line(i).segment, tracks_.state(i).patches);
+    TrackState& state = tracks_.state(i);
+    if (!state.template_due) return;
+    state.reference = tracks_.line(i).segment;
+    method_.flow->extractTemplate(pyramid_, state.reference, state.patches);
   });
 }
 
@@ -240,6 +245,9 @@ std::size_t LineTracker::reset() {
 }
 const LineTrackerParameters& LineTracker::parameters() const {
   return implementation_->parameters();
+}
+const std::vector<std::string>& LineTracker::notes() const {
+  return implementation_->notes();
 }
 std::string LineTracker::detectorName() const {
   return implementation_->detectorName();

@@ -9,7 +9,7 @@ TrackInitializer::TrackInitializer(const DetectionParameters& detection, const L
     : parameters_(detection),
       refiner_(refiner),
       options_(options),
-      detector_(makeLineDetector(detection.detector)) {}
+      detector_(makeLineDetector(detection.detector, options.detectors)) {}
 
 void TrackInitializer::addTracks(const cv::Mat& gray, const VisibleArea& area, TrackTable& tracks,
                                  FrameStatistics& statistics) {
@@ -23,14 +23,19 @@ void TrackInitializer::addTracks(const cv::Mat& gray, const VisibleArea& area, T
   // More than there is room for, as some are no good; but not the whole of a rich image, which takes time.
   const std::size_t max_lines = static_cast<std::size_t>(parameters_.max_lines);
   const std::size_t tracked = tracks.size();
-  hints_.enough = 2 * (max_lines - std::min(max_lines, tracked)) + 20;
+  hints_.enough =
+      options_.spread ? 2 * (max_lines - std::min(max_lines, tracked)) + 20 : DetectionHints().enough;
   detector_->detect(gray, static_cast<float>(parameters_.min_length), candidates_, hints_);
   statistics.lines_detected = static_cast<std::uint32_t>(candidates_.size());
 
+  auto next = [this, i = std::size_t{0}]() mutable -> const LineSegment* {
+    if (options_.spread) return selector_.next();
+    return i < candidates_.size() ? &candidates_[i++] : nullptr;
+  };
   selector_.start(gray.cols, gray.rows, candidates_);
   for (const LineSegment& line : hints_.tracked) selector_.add(line);
   while (tracks.size() < max_lines) {
-    const LineSegment* candidate = selector_.next();
+    const LineSegment* candidate = next();
     if (candidate == nullptr) break;
     // The cheap test before the fit, and again after it.
     if (taken_.containsDuplicateOf(*candidate)) continue;

@@ -20,8 +20,12 @@ namespace tet_line_tracker {
 class TrackInitializer {
  public:
   struct Options {
-    bool fit_edges{
-        true};  ///< new lines are fitted to their edges; those with too little support are left out
+    /// New lines are fitted to their edges; those with too little support are left out.
+    bool fit_edges{true};
+    /// New lines by CandidateSelector; otherwise the longest first.
+    bool spread{true};
+    /// For detector `auto`: the detectors to try, best first.
+    std::vector<std::string> detectors{"edge", "lsd", "fld"};
     /// New lines are this much longer than min_length and farther inside the border: otherwise noise would
     /// soon end them [px].
     float margin_px{2.0F};

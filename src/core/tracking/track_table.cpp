@@ -11,6 +11,7 @@ void TrackTable::add(const LineSegment& segment, float contrast) {
   if (states_.size() < lines_.size()) states_.resize(lines_.size());
   TrackState& state = states_[lines_.size() - 1];
   state.contrast = contrast;
+  state.template_due = true;
   state.start_parallax.setZero();
   state.end_parallax.setZero();
   state.loss = LossReason::kCount;

@@ -14,7 +14,10 @@ namespace tet_line_tracker {
 
 /// What is known of a track besides what is published.
 struct TrackState {
-  LineTemplate patches;  ///< from the last image
+  LineTemplate patches;   ///< what the line looked like at `reference`
+  LineSegment reference;  ///< where `patches` were extracted [px]
+  /// `patches` must be extracted again. A line that stands still keeps them, so that slow movement adds up.
+  bool template_due{true};
   float contrast{0.0F};  ///< across the edge, positive where the left side is brighter [gray / px]
   /// Movement of the ends beyond the rotation of the camera, predicted for the next image [px]
   Eigen::Vector2f start_parallax{Eigen::Vector2f::Zero()};

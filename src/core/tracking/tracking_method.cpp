@@ -1,10 +1,17 @@
 #include "tracking/tracking_method.h"
 
+#include <string>
+#include <utility>
+
+#include <opencv2/core/version.hpp>
+
 namespace tet_line_tracker {
 namespace {
 
 /// What noise moves an end by from image to image [px].
 constexpr float kDeadBand = 0.25F;
+/// What a template that is some images old may differ by.
+constexpr float kKeptResidual = 0.05F;
 
 template <class Check, class... Arguments>
 void add(TrackChecks& checks, Arguments&&... arguments) {
@@ -22,8 +29,17 @@ TrackingMethod makePaperMethod(const LineTrackerParameters& p) {
   add<FieldOfViewCheck>(method.checks, p.detection.min_length);
   add<MaskCheck>(method.checks);
   method.detection_policy = makeMinLinesPolicy(p.detection);
-  method.initializer = std::make_unique<TrackInitializer>(p.detection, LineRefiner(p.refiner),
-                                                          TrackInitializer::Options{false, 0.0F});
+  TrackInitializer::Options options;
+  options.fit_edges = false;
+  options.spread = false;
+  options.detectors = {"lsd", "fld", "edge"};
+  options.margin_px = 0.0F;
+  method.initializer = std::make_unique<TrackInitializer>(p.detection, LineRefiner(p.refiner), options);
+  if (p.detection.detector == "auto" && method.initializer->detectorName() != "lsd") {
+    method.notes.push_back("LSD, the detector of the paper, does not work with OpenCV " CV_VERSION
+                           ": lines are detected by " +
+                           method.initializer->detectorName());
+  }
   return method;
 }
 
@@ -32,9 +48,15 @@ TrackingMethod makeJointMethod(const LineTrackerParameters& p) {
   TrackingMethod method;
   method.motion = p.motion;
   EndpointTrackerParameters flow = p.flow;
-  if (!p.refiner.refine) flow.finest_level = 0;
+  if (!p.refiner.refine && flow.finest_level > 0) {
+    method.notes.push_back(
+        "parameter refine is false: the flow ends at level 0 instead of at finest_level, which is " +
+        std::to_string(flow.finest_level));
+    flow.finest_level = 0;
+  }
   method.flow = makeJointFlow(flow);
   method.dead_band_px = kDeadBand;
+  method.max_kept_residual = kKeptResidual;
   add<LengthRatioCheck>(method.checks, p.plausibility.max_length_ratio);
   add<AngleCheck>(method.checks, p.plausibility.max_rotation);
   if (p.refiner.refine) {
@@ -48,8 +70,9 @@ TrackingMethod makeJointMethod(const LineTrackerParameters& p) {
   if (p.refiner.refine) add<EdgeJumpCheck>(method.checks, p.plausibility.max_edge_offset);
   add<DuplicateCheck>(method.checks);
   method.detection_policy = makeReplenishPolicy(p.detection);
-  method.initializer = std::make_unique<TrackInitializer>(p.detection, LineRefiner(p.refiner),
-                                                          TrackInitializer::Options{p.refiner.refine, 2.0F});
+  TrackInitializer::Options options;
+  options.fit_edges = p.refiner.refine;
+  method.initializer = std::make_unique<TrackInitializer>(p.detection, LineRefiner(p.refiner), options);
   return method;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "tet_line_tracker/flow/endpoint_tracker.h"
 #include "tet_line_tracker/motion/motion_prior.h"
@@ -16,11 +18,14 @@ namespace tet_line_tracker {
 struct TrackingMethod {
   MotionPriorParameters motion;
   std::unique_ptr<EndpointTracker> flow;
-  float dead_band_px{0.0F};              ///< ends that move less than this between images stay in place
+  float dead_band_px{0.0F};  ///< ends stay in place until they have moved this far
+  /// A line in the dead band keeps its template unless its residual is above this, 0..1
+  float max_kept_residual{0.0F};
   std::unique_ptr<LineRefiner> refiner;  ///< nullptr: lines stay where the flow puts them
   TrackChecks checks;                    ///< in this order
   std::unique_ptr<DetectionPolicy> detection_policy;
   std::unique_ptr<TrackInitializer> initializer;
+  std::vector<std::string> notes;  ///< one sentence for each parameter that is not used as it was given
 };
 
 /// The method that `parameters.method` names, made of its parts. Throws std::invalid_argument with every

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
@@ -206,6 +207,68 @@ TEST(JointFlow, AlongABareEdgeEndpointsHardlySlide) {
   EXPECT_NEAR(kLine.distance(flow.segment.end), 2.0F, 0.1F);
   EXPECT_NEAR(kLine.along(flow.segment.start), 0.0F, 4.0F);
   EXPECT_NEAR(kLine.along(flow.segment.end), kLine.length(), 4.0F);
+}
+
+/// A ramp: a shift of `shift` px to the right makes each pixel darker by 3 gray per px.
+cv::Mat ramp(float shift) {
+  cv::Mat image(kHeight, 80, CV_8UC1);
+  for (int x = 0; x < image.cols; ++x) {
+    image.col(x).setTo(cv::Scalar(std::lround(3.0F * (static_cast<float>(x) - shift))));
+  }
+  return image;
+}
+
+TEST(JointFlow, TakesNoMoreStepsThanMaxIterations) {
+  EndpointTrackerParameters once;
+  once.pyramid_levels = 1;
+  once.finest_level = 0;
+  once.gain_and_offset = false;
+  once.max_iterations = 1;
+  const LineSegment line{{40.0F, 60.0F}, {40.0F, 160.0F}};
+  ImagePyramid first, second;
+  first.build(ramp(0.0F), 1);
+  second.build(ramp(2.0F), 1);
+  const auto tracker = makeJointFlow(once);
+  LineTemplate patches;
+  tracker->extractTemplate(first, line, patches);
+  // The residual is that of the place before the only step: 2 px on a ramp of 3 gray per px.
+  EXPECT_NEAR(tracker->track(patches, second, line).residual, 6.0F / 255.0F, 1e-4F);
+}
+
+TEST(JointFlow, ALineThatMatchesPoorlyIsStillPlacedOnTheFinestLevel) {
+  const Eigen::Vector2f shift(1.4F, -0.9F);
+  const cv::Mat first = smoothImage(kWidth, kHeight, {0.0F, 0.0F});
+  cv::Mat second = smoothImage(kWidth, kHeight, shift);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) second.at<std::uint8_t>(y, x) += (x / 4 + y / 4) % 2 == 0 ? 12 : -12;
+  }
+  const EndpointFlow flow = followInto(*joint(), first, second);
+  ASSERT_EQ(flow.status, EndpointFlow::Status::kTracked);
+  EXPECT_GT(flow.residual, EndpointTrackerParameters{}.max_residual);
+  // On the levels above the checks are gone, so these alone give the place of the finest one but for its last
+  // step.
+  EndpointTrackerParameters coarse;
+  coarse.finest_level = 1;
+  const EndpointFlow above = followInto(*makeJointFlow(coarse), first, second);
+  EXPECT_GT((flow.segment.start - above.segment.start).norm(), 1e-3F);
+  EXPECT_LT((flow.segment.start - kLine.start - shift).norm(), 0.1F);
+}
+
+TEST(EndpointTracker, RefusesParametersOutOfRangeAndTemplatesOfAnotherWindow) {
+  EndpointTrackerParameters parameters;
+  parameters.window_px = 31;
+  EXPECT_THROW(makeJointFlow(parameters), std::invalid_argument);
+  EXPECT_THROW(makeTwoEndpointFlow(parameters), std::invalid_argument);
+  parameters.window_px = 9;
+  const auto other = makeJointFlow(parameters);
+  ImagePyramid pyramid;
+  pyramid.build(smoothImage(kWidth, kHeight, {0.0F, 0.0F}), 3);
+  LineTemplate patches;
+  joint()->extractTemplate(pyramid, kLine, patches);
+  EXPECT_THROW(other->track(patches, pyramid, kLine), std::invalid_argument);
+  // Extracted again, the template is of the other window.
+  other->extractTemplate(pyramid, kLine, patches);
+  EXPECT_EQ(other->track(patches, pyramid, kLine).status, EndpointFlow::Status::kTracked);
 }
 
 }  // namespace

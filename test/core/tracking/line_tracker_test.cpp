@@ -1,5 +1,6 @@
 #include "tet_line_tracker/tracking/line_tracker.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -9,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "synthetic_images.h"
+#include "tet_line_tracker/detection/line_detector.h"
 
 namespace tet_line_tracker {
 namespace {
@@ -307,6 +309,52 @@ TEST(LineTracker, StandingStillKeepsEveryLineAndItsEnds) {
     }
   }
   EXPECT_GE(first.size(), 20U);
+}
+
+TEST(LineTracker, SlowMovementMovesTheEndsAtAnyRate) {
+  // A twentieth of a pixel per image, as at 200 Hz: less than the dead band of the ends.
+  const auto shiftOf = [](int image) -> Eigen::Vector2f {
+    return Eigen::Vector2f(0.05F, 0.03F) * static_cast<float>(image);
+  };
+  for (const bool refine : {true, false}) {
+    LineTrackerParameters parameters = boxParameters();
+    parameters.refiner.refine = refine;
+    LineTracker tracker(parameters);
+    std::map<std::uint64_t, LineSegment> first;
+    std::size_t followed = 0;
+    for (int k = 0; k <= 80; ++k) {
+      const LineFrame* frame =
+          tracker.process(boxesImage(kWidth, kHeight, shiftOf(k)), kStart + k * kPeriod / 10).frame;
+      for (const TrackedLine& line : frame->lines) {
+        if (k == 0) first[line.id] = line.segment;
+        if (k != 80 || first.count(line.id) == 0) continue;
+        ++followed;
+        EXPECT_LT((line.segment.start - first[line.id].start - shiftOf(80)).norm(), 0.6F) << refine;
+        EXPECT_LT((line.segment.end - first[line.id].end - shiftOf(80)).norm(), 0.6F) << refine;
+      }
+    }
+    EXPECT_GE(followed, 15U) << refine;
+  }
+}
+
+TEST(LineTracker, SaysWhichParametersCannotBeUsedAsGiven) {
+  EXPECT_TRUE(LineTracker(LineTrackerParameters{}).notes().empty());
+  LineTrackerParameters parameters;
+  parameters.refiner.refine = false;
+  ASSERT_EQ(LineTracker(parameters).notes().size(), 1U);
+  EXPECT_NE(LineTracker(parameters).notes().front().find("finest_level"), std::string::npos);
+  parameters.flow.finest_level = 0;
+  EXPECT_TRUE(LineTracker(parameters).notes().empty());
+}
+
+TEST(LineTracker, MethodPaperDetectsByLsdWhereOpenCvHasItAndSaysSoWhereNot) {
+  LineTrackerParameters parameters;
+  parameters.method = "paper";
+  const LineTracker tracker(parameters);
+  const std::vector<std::string> available = availableDetectors();
+  const bool lsd = std::find(available.begin(), available.end(), "lsd") != available.end();
+  EXPECT_EQ(tracker.detectorName() == "lsd", lsd);
+  EXPECT_EQ(tracker.notes().empty(), lsd);
 }
 
 }  // namespace
