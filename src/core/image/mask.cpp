@@ -5,8 +5,8 @@
 
 namespace tet_line_tracker {
 
-bool mostlyInMask(const LineSegment& line, const cv::Mat& mask) {
-  const int points = std::max(2, static_cast<int>(line.length() / 2.0F));
+bool mostlyInMask(const LineCurve& line, const cv::Mat& mask) {
+  const int points = std::max(2, static_cast<int>(line.chord.length() / 2.0F));
   int inside = 0;
   for (int i = 0; i < points; ++i) {
     const Eigen::Vector2f p = line.at((static_cast<float>(i) + 0.5F) / static_cast<float>(points));
