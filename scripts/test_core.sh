@@ -47,7 +47,7 @@ greyRectangle() {
 testInFreshRoot() {
   local mirror suite root installed
   [ "$(id -u)" = 0 ] || fail "--fresh-root needs root"
-  requirePackages debootstrap
+  requirePackages "${packages_fresh_root[@]}"
   # From where this machine takes its own packages.
   read -r mirror suite < <(
     apt-get indextargets --format '$(COMPONENT) $(REPO_URI) $(CODENAME)' 'Identifier: Packages' 'Origin: Debian' |
