@@ -1,4 +1,8 @@
-# Debian packages by purpose: build, run (the demo without a display), rviz, test, lint, benchmark. Sourced by environment.sh.
+# Debian packages by purpose: build, run (what README and the demo without a display start), rviz, test, lint, benchmark, core (the
+# core alone), fresh_root (test_core.sh --fresh-root). Sourced by environment.sh.
+
+packages_core=(cmake g++ libeigen3-dev libgtest-dev libopencv-dev libyaml-cpp-dev ninja-build)
+packages_fresh_root=(debootstrap)
 
 if [ -e /opt/ros/noetic/setup.bash ]; then
   # Ubuntu 20.04 with ROS Noetic from packages.ros.org.
