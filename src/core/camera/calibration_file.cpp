@@ -90,9 +90,8 @@ class Section {
   std::string place_;
 };
 
-/// Throws unless the upper left 3x3 of a row-major matrix with rows of `stride` numbers turns and does not
-/// deform.
-Eigen::Matrix3d rotationOf(const std::vector<double>& m, std::size_t stride, const std::string& name) {
+/// Upper left 3x3 of a row-major matrix with rows of `stride` numbers. Throws unless it is a rotation.
+Eigen::Matrix3d toRotation(const std::vector<double>& m, std::size_t stride, const std::string& name) {
   Eigen::Matrix3d rotation;
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 3; ++column) {
@@ -105,9 +104,9 @@ Eigen::Matrix3d rotationOf(const std::vector<double>& m, std::size_t stride, con
   return Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
 }
 
-Eigen::Isometry3d isometryOf(const std::vector<double>& m, const std::string& name) {
+Eigen::Isometry3d toIsometry(const std::vector<double>& m, const std::string& name) {
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
-  transform.linear() = rotationOf(m, 4, name);
+  transform.linear() = toRotation(m, 4, name);
   transform.translation() = Eigen::Vector3d(m[3], m[7], m[11]);
   return transform;
 }
@@ -162,7 +161,7 @@ CalibrationFile fromKalibr(const Section& file, int index) {
                              "\"; known: pinhole with radtan, equi or none, omni with radtan or none");
   }
   if (camera.has("T_cam_imu")) {
-    result.camera_from_imu = isometryOf(camera.numbers("T_cam_imu", 16), camera.nameOf("T_cam_imu"));
+    result.camera_from_imu = toIsometry(camera.numbers("T_cam_imu", 16), camera.nameOf("T_cam_imu"));
   }
   return result;
 }
@@ -170,11 +169,11 @@ CalibrationFile fromKalibr(const Section& file, int index) {
 /// The extrinsics of VINS: both forms move a point of the camera's frame to the IMU's.
 std::optional<Eigen::Isometry3d> vinsExtrinsics(const Section& file, int index) {
   const std::string fusion = "body_T_cam" + std::to_string(index);
-  if (file.has(fusion)) return isometryOf(file.numbers(fusion, 16), fusion).inverse();
+  if (file.has(fusion)) return toIsometry(file.numbers(fusion, 16), fusion).inverse();
   if (!file.has("extrinsicRotation") || !file.has("extrinsicTranslation")) return std::nullopt;
   const std::vector<double> t = file.numbers("extrinsicTranslation", 3);
   Eigen::Isometry3d imu_from_camera = Eigen::Isometry3d::Identity();
-  imu_from_camera.linear() = rotationOf(file.numbers("extrinsicRotation", 9), 3, "extrinsicRotation");
+  imu_from_camera.linear() = toRotation(file.numbers("extrinsicRotation", 9), 3, "extrinsicRotation");
   imu_from_camera.translation() = Eigen::Vector3d(t[0], t[1], t[2]);
   return imu_from_camera.inverse();
 }

@@ -1,11 +1,9 @@
 #include "tet_line_tracker/motion/motion_prior.h"
 
-#include <array>
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Geometry>
-
+#include "geometry/so3.h"
 #include "motion/gyro_integrator.h"
 #include "motion/rotation_aligner.h"
 
@@ -26,21 +24,10 @@ constexpr float kMaxGyroBias = 0.1F;
 /// A prediction must make the images fit at least this much better than no motion does.
 constexpr float kMinImprovement = 0.9F;
 
-Eigen::Vector3f vectorOf(const Eigen::Matrix3d& rotation) {
-  const Eigen::AngleAxisd turn(rotation);
-  return (turn.angle() * turn.axis()).cast<float>();
-}
-
-Eigen::Matrix3d rotationOf(const Eigen::Vector3f& turn) {
-  const double angle = static_cast<double>(turn.norm());
-  if (angle == 0.0) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, turn.cast<double>() / angle).toRotationMatrix();
-}
-
 }  // namespace
 
 double MotionPrediction::angle() const {
-  return Eigen::AngleAxisd(rotation).angle();
+  return so3Log(rotation).norm();
 }
 
 const char* MotionPrediction::sourceName() const {
@@ -68,9 +55,9 @@ class MotionPrior::Implementation {
     gyro_.add(stamp_ns, velocity);
   }
   void reset() {
-    coarse_.forget();
-    fine_.forget();
-    last_turn_.setZero();
+    coarse_.clearTemplate();
+    fine_.clearTemplate();
+    last_rotation_.setZero();
   }
   MotionPrediction predict(const ImagePyramid& pyramid, std::int64_t stamp_ns);
   LineSegment apply(const MotionPrediction& prediction, const LineSegment& segment,
@@ -78,9 +65,9 @@ class MotionPrior::Implementation {
 
  private:
   void prepareCamera(const ImagePyramid& pyramid);
-  std::optional<Eigen::Vector3f> gyroTurn(std::int64_t stamp_ns) const;
+  std::optional<Eigen::Vector3f> integrateGyro(std::int64_t stamp_ns) const;
   void learnGyroBias(const Eigen::Vector3f& measured, const Eigen::Vector3f& aligned, float interval_s);
-  Eigen::Vector3f imageTurn(const ImagePyramid& pyramid);
+  Eigen::Vector3f alignImages(const ImagePyramid& pyramid);
 
   MotionPriorParameters parameters_;
   std::shared_ptr<const CameraModel> camera_;
@@ -91,7 +78,7 @@ class MotionPrior::Implementation {
   RotationAligner fine_{kFineLevel};
   Eigen::Vector3f gyro_bias_{Eigen::Vector3f::Zero()};  ///< in the camera's optical frame [rad/s]
   std::int64_t last_stamp_ns_{0};
-  Eigen::Vector3f last_turn_{Eigen::Vector3f::Zero()};
+  Eigen::Vector3f last_rotation_{Eigen::Vector3f::Zero()};
 };
 
 void MotionPrior::Implementation::prepareCamera(const ImagePyramid& pyramid) {
@@ -115,12 +102,12 @@ void MotionPrior::Implementation::prepareCamera(const ImagePyramid& pyramid) {
   fine_.setCamera(*aligned_camera_);
 }
 
-std::optional<Eigen::Vector3f> MotionPrior::Implementation::gyroTurn(std::int64_t stamp_ns) const {
+std::optional<Eigen::Vector3f> MotionPrior::Implementation::integrateGyro(std::int64_t stamp_ns) const {
   if (!camera_from_imu_ || (parameters_.prior != "imu" && parameters_.prior != "auto")) return std::nullopt;
   const std::optional<Eigen::Matrix3d> rotation =
       gyro_.rotation(last_stamp_ns_, stamp_ns, Eigen::Vector3d::Zero());
   if (!rotation) return std::nullopt;
-  return vectorOf(*camera_from_imu_ * *rotation * camera_from_imu_->transpose());
+  return so3Log(*camera_from_imu_ * *rotation * camera_from_imu_->transpose()).cast<float>();
 }
 
 void MotionPrior::Implementation::learnGyroBias(const Eigen::Vector3f& measured,
@@ -131,43 +118,48 @@ void MotionPrior::Implementation::learnGyroBias(const Eigen::Vector3f& measured,
   gyro_bias_ += kBiasShare * (difference - gyro_bias_);
 }
 
-Eigen::Vector3f MotionPrior::Implementation::imageTurn(const ImagePyramid& pyramid) {
+Eigen::Vector3f MotionPrior::Implementation::alignImages(const ImagePyramid& pyramid) {
   // From standing still and from going on as before, whichever fits better.
   Eigen::Vector3f start = Eigen::Vector3f::Zero();
-  if (coarse_.hasImage()) {
-    if (coarse_.cost(pyramid, last_turn_) < coarse_.cost(pyramid, start)) start = last_turn_;
+  if (coarse_.hasTemplate()) {
+    if (coarse_.cost(pyramid, last_rotation_) < coarse_.cost(pyramid, start)) start = last_rotation_;
     start = coarse_.align(pyramid, start, kCoarseIterations);
   }
-  return fine_.hasImage() ? fine_.align(pyramid, start, kFineIterations) : start;
+  return fine_.hasTemplate() ? fine_.align(pyramid, start, kFineIterations) : start;
 }
 
 MotionPrediction MotionPrior::Implementation::predict(const ImagePyramid& pyramid, std::int64_t stamp_ns) {
   MotionPrediction prediction;
   if (parameters_.prior == "none") return prediction;
   prepareCamera(pyramid);
-  RotationAligner& judge = fine_.hasImage() ? fine_ : coarse_;
-  if (judge.hasImage()) {
-    const float still = kMinImprovement * judge.cost(pyramid, Eigen::Vector3f::Zero());
-    Eigen::Vector3f turn = Eigen::Vector3f::Zero();
-    const std::optional<Eigen::Vector3f> measured = gyroTurn(stamp_ns);
+  RotationAligner& aligner = fine_.hasTemplate() ? fine_ : coarse_;
+  if (aligner.hasTemplate()) {
+    const float max_cost = kMinImprovement * aligner.cost(pyramid, Eigen::Vector3f::Zero());
+    Eigen::Vector3f rotation = Eigen::Vector3f::Zero();
+    const std::optional<Eigen::Vector3f> measured = integrateGyro(stamp_ns);
     const float interval_s = 1e-9F * static_cast<float>(stamp_ns - last_stamp_ns_);
-    const Eigen::Vector3f corrected = measured ? Eigen::Vector3f(*measured - interval_s * gyro_bias_) : turn;
-    if (measured && judge.cost(pyramid, corrected) < still) {
+    const Eigen::Vector3f corrected =
+        measured ? Eigen::Vector3f(*measured - interval_s * gyro_bias_) : rotation;
+    if (measured && aligner.cost(pyramid, corrected) < max_cost) {
       prediction.source = MotionPrediction::Source::kImu;
-      turn = corrected;
-      learnGyroBias(*measured, judge.align(pyramid, corrected, kBiasIterations), interval_s);
+      rotation = corrected;
+      learnGyroBias(*measured, aligner.align(pyramid, corrected, kBiasIterations), interval_s);
     } else if (!measured || parameters_.prior == "auto") {
-      const Eigen::Vector3f found = imageTurn(pyramid);
-      if (found.allFinite() && judge.cost(pyramid, found) < still) {
+      const Eigen::Vector3f found = alignImages(pyramid);
+      if (found.allFinite() && aligner.cost(pyramid, found) < max_cost) {
         prediction.source = MotionPrediction::Source::kImage;
-        turn = found;
+        rotation = found;
       }
     }
-    prediction.rotation = rotationOf(turn);
-    last_turn_ = turn;
+    // The norm in single precision, as the rotation vector.
+    const double angle = static_cast<double>(rotation.norm());
+    if (angle > 0.0) {
+      prediction.rotation = Eigen::AngleAxisd(angle, rotation.cast<double>() / angle).toRotationMatrix();
+    }
+    last_rotation_ = rotation;
   }
-  coarse_.describe(pyramid);
-  fine_.describe(pyramid);
+  coarse_.extractTemplate(pyramid);
+  fine_.extractTemplate(pyramid);
   gyro_.forgetBefore(stamp_ns);
   last_stamp_ns_ = stamp_ns;
   return prediction;
@@ -177,16 +169,16 @@ LineSegment MotionPrior::Implementation::apply(const MotionPrediction& predictio
                                                const Eigen::Vector2d& start_normalized,
                                                const Eigen::Vector2d& end_normalized) const {
   if (!aligned_camera_ || !prediction.used()) return segment;
-  const auto turned = [&](const Eigen::Vector2f& point,
-                          const Eigen::Vector2d& normalized) -> std::optional<Eigen::Vector2d> {
+  const auto rotated = [&](const Eigen::Vector2f& point,
+                           const Eigen::Vector2d& normalized) -> std::optional<Eigen::Vector2d> {
     if (normalized.allFinite())
       return aligned_camera_->project(prediction.rotation * normalized.homogeneous());
     const std::optional<Eigen::Vector3d> ray = aligned_camera_->unproject(point.cast<double>());
     if (!ray) return std::nullopt;
     return aligned_camera_->project(prediction.rotation * *ray);
   };
-  const std::optional<Eigen::Vector2d> start = turned(segment.start, start_normalized);
-  const std::optional<Eigen::Vector2d> end = turned(segment.end, end_normalized);
+  const std::optional<Eigen::Vector2d> start = rotated(segment.start, start_normalized);
+  const std::optional<Eigen::Vector2d> end = rotated(segment.end, end_normalized);
   if (!start || !end) return segment;
   return {start->cast<float>(), end->cast<float>()};
 }
