@@ -28,10 +28,11 @@ class Section {
 
   double number(const std::string& key) const { return toNumber(require(key), nameOf(key)); }
 
-  int integer(const std::string& key) const {
-    const double value = number(key);
+  int integer(const std::string& key) const { return toInteger(number(key), nameOf(key)); }
+
+  static int toInteger(double value, const std::string& name) {
     if (value != std::floor(value) || std::abs(value) > 1e6) {
-      throw std::runtime_error(nameOf(key) + " is " + std::to_string(value) + ", needs a whole number");
+      throw std::runtime_error(name + " is " + std::to_string(value) + ", needs a whole number");
     }
     return static_cast<int>(value);
   }
@@ -139,8 +140,8 @@ CalibrationFile fromKalibr(const Section& file, int index) {
   result.name = "cam" + std::to_string(index);
   const Section camera = file.section(result.name);
   const std::vector<double> size = camera.numbers("resolution", 2);
-  result.camera.width = static_cast<int>(size[0]);
-  result.camera.height = static_cast<int>(size[1]);
+  result.camera.width = Section::toInteger(size[0], camera.nameOf("resolution[0]"));
+  result.camera.height = Section::toInteger(size[1], camera.nameOf("resolution[1]"));
 
   const std::string projection = camera.text("camera_model");
   const std::string distortion = camera.text("distortion_model");

@@ -62,7 +62,7 @@ class EquidistantModel final : public CameraModel {
 std::shared_ptr<const CameraModel> makeEquidistantModel(const CameraCalibration& calibration) {
   const std::size_t n = calibration.distortion.size();
   if (n != 0 && n != 4) {
-    throw std::invalid_argument("calibration: equidistant has " + std::to_string(n) +
+    throw std::invalid_argument("equidistant has " + std::to_string(n) +
                                 " distortion coefficients, needs 0 or 4");
   }
   return std::make_shared<EquidistantModel>(calibration);

@@ -12,7 +12,8 @@ constexpr std::size_t kMaxSamples = 4000;  // if nobody ever asks
 }  // namespace
 
 void GyroIntegrator::add(std::int64_t stamp_ns, const Eigen::Vector3d& angular_velocity) {
-  if (!angular_velocity.allFinite()) return;
+  // Written so that NaN fails, and a norm that overflows.
+  if (!(angular_velocity.norm() <= kMaxAngularVelocity)) return;
   if (!samples_.empty()) {
     const std::int64_t last = samples_.back().stamp_ns;
     if (stamp_ns < last - kMaxGapNs) {

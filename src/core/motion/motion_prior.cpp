@@ -1,8 +1,10 @@
 #include "tet_line_tracker/motion/motion_prior.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "camera/camera_models.h"
 #include "geometry/so3.h"
 #include "motion/gyro_integrator.h"
 #include "motion/rotation_aligner.h"
@@ -48,7 +50,7 @@ class MotionPrior::Implementation {
   void setCamera(std::shared_ptr<const CameraModel> camera) {
     if (camera == camera_) return;
     camera_ = std::move(camera);
-    aligned_camera_.reset();
+    image_size_ = cv::Size();
   }
   void setImuRotation(const Eigen::Matrix3d& camera_from_imu) { camera_from_imu_ = camera_from_imu; }
   void addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3d& velocity) {
@@ -71,7 +73,8 @@ class MotionPrior::Implementation {
 
   MotionPriorParameters parameters_;
   std::shared_ptr<const CameraModel> camera_;
-  std::shared_ptr<const CameraModel> aligned_camera_;  ///< camera_, or the one assumed without calibration
+  std::shared_ptr<const CameraModel> lens_;  ///< camera_, or a pinhole without calibration
+  cv::Size image_size_;                      ///< that the aligners know
   std::optional<Eigen::Matrix3d> camera_from_imu_;
   GyroIntegrator gyro_;
   RotationAligner coarse_{kCoarseLevel};
@@ -82,24 +85,19 @@ class MotionPrior::Implementation {
 };
 
 void MotionPrior::Implementation::prepareCamera(const ImagePyramid& pyramid) {
-  const cv::Mat& image = pyramid.level(0);
-  if (aligned_camera_ && aligned_camera_->calibration().width == image.cols &&
-      aligned_camera_->calibration().height == image.rows) {
-    return;
+  const cv::Size size = pyramid.level(0).size();
+  if (size == image_size_) return;
+  image_size_ = size;
+  lens_ = camera_;
+  if (!lens_) {
+    CameraCalibration pinhole;
+    pinhole.fx = pinhole.fy = size.width;
+    pinhole.cx = 0.5 * (size.width - 1);
+    pinhole.cy = 0.5 * (size.height - 1);
+    lens_ = makeUncheckedCameraModel(pinhole);
   }
-  CameraCalibration calibration;
-  if (camera_) {
-    calibration = camera_->calibration();
-  } else {
-    calibration.fx = calibration.fy = image.cols;
-    calibration.cx = 0.5 * (image.cols - 1);
-    calibration.cy = 0.5 * (image.rows - 1);
-  }
-  calibration.width = image.cols;
-  calibration.height = image.rows;
-  aligned_camera_ = makeCameraModel(calibration);
-  coarse_.setCamera(*aligned_camera_);
-  fine_.setCamera(*aligned_camera_);
+  coarse_.setCamera(*lens_, size);
+  fine_.setCamera(*lens_, size);
 }
 
 std::optional<Eigen::Vector3f> MotionPrior::Implementation::integrateGyro(std::int64_t stamp_ns) const {
@@ -168,19 +166,19 @@ MotionPrediction MotionPrior::Implementation::predict(const ImagePyramid& pyrami
 LineSegment MotionPrior::Implementation::apply(const MotionPrediction& prediction, const LineSegment& segment,
                                                const Eigen::Vector2d& start_normalized,
                                                const Eigen::Vector2d& end_normalized) const {
-  if (!aligned_camera_ || !prediction.used()) return segment;
+  if (!lens_ || !prediction.used()) return segment;
   const auto rotated = [&](const Eigen::Vector2f& point,
                            const Eigen::Vector2d& normalized) -> std::optional<Eigen::Vector2d> {
-    if (normalized.allFinite())
-      return aligned_camera_->project(prediction.rotation * normalized.homogeneous());
-    const std::optional<Eigen::Vector3d> ray = aligned_camera_->unproject(point.cast<double>());
+    if (normalized.allFinite()) return lens_->project(prediction.rotation * normalized.homogeneous());
+    const std::optional<Eigen::Vector3d> ray = lens_->unproject(point.cast<double>());
     if (!ray) return std::nullopt;
-    return aligned_camera_->project(prediction.rotation * *ray);
+    return lens_->project(prediction.rotation * *ray);
   };
   const std::optional<Eigen::Vector2d> start = rotated(segment.start, start_normalized);
   const std::optional<Eigen::Vector2d> end = rotated(segment.end, end_normalized);
   if (!start || !end) return segment;
-  return {start->cast<float>(), end->cast<float>()};
+  const LineSegment expected{start->cast<float>(), end->cast<float>()};
+  return expected.start.allFinite() && expected.end.allFinite() ? expected : segment;
 }
 
 MotionPrior::MotionPrior(const MotionPriorParameters& parameters)

@@ -8,6 +8,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "geometry/clamp.h"
+
 namespace tet_line_tracker {
 namespace {
 
@@ -17,10 +19,10 @@ constexpr std::size_t kMinMagnitude = 2;  // of a gradient that is more than noi
 constexpr float kMaxResidual = 20.0F;     // larger gray differences count as this one
 constexpr float kMinStep = 2.5e-5F;       // the iterations end below this step on level 0 [rad]
 
-/// Gray value between pixels; beyond the border the outermost pixel is repeated.
+/// Gray value between pixels; beyond the border, also at NaN, that of the outermost pixel.
 float interpolate(const cv::Mat& image, float x, float y) {
-  x = std::clamp(x, 0.0F, static_cast<float>(image.cols) - 1.001F);
-  y = std::clamp(y, 0.0F, static_cast<float>(image.rows) - 1.001F);
+  x = clampOrLow(x, 0.0F, static_cast<float>(image.cols) - 1.001F);
+  y = clampOrLow(y, 0.0F, static_cast<float>(image.rows) - 1.001F);
   const int column = static_cast<int>(x);
   const int row = static_cast<int>(y);
   const float fx = x - static_cast<float>(column);
@@ -34,14 +36,14 @@ float interpolate(const cv::Mat& image, float x, float y) {
 
 }  // namespace
 
-void RotationAligner::setCamera(const CameraModel& camera) {
+void RotationAligner::setCamera(const CameraModel& camera, const cv::Size& size) {
   const double scale = static_cast<double>(ImagePyramid::scale(level_));
-  const auto halved = [this](int size) {
-    for (int j = 0; j < level_; ++j) size = (size + 1) / 2;
-    return size;
+  const auto halved = [this](int side) {
+    for (int j = 0; j < level_; ++j) side = (side + 1) / 2;
+    return side;
   };
-  width_ = halved(camera.calibration().width);
-  height_ = halved(camera.calibration().height);
+  width_ = halved(size.width);
+  height_ = halved(size.height);
   points_.clear();
   jacobians_.assign(static_cast<std::size_t>(width_ * height_), Eigen::Matrix<float, 2, 3>::Zero());
   magnitudes_.assign(jacobians_.size(), 0);
@@ -60,7 +62,9 @@ void RotationAligner::setCamera(const CameraModel& camera) {
         seen = ahead && behind;
         if (seen) jacobian.col(axis) = scale * (*ahead - *behind) / (2.0 * kSmallAngle);
       }
-      if (seen) jacobians_[static_cast<std::size_t>(y * width_ + x)] = jacobian.cast<float>();
+      if (!seen) continue;
+      const Eigen::Matrix<float, 2, 3> single = jacobian.cast<float>();
+      if (single.allFinite()) jacobians_[static_cast<std::size_t>(y * width_ + x)] = single;
     }
   }
 }

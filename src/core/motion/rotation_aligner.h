@@ -20,10 +20,10 @@ class RotationAligner {
   /// `level`: of the pyramid.
   explicit RotationAligner(int level) : level_(level) {}
 
-  /// Lens and size of the original image; forgets the template.
-  void setCamera(const CameraModel& camera);
+  /// Lens and size of the original image [px]; forgets the template.
+  void setCamera(const CameraModel& camera, const cv::Size& size);
 
-  /// Takes the first image. False when it has too little texture.
+  /// Takes the first image. False when it has too little texture or another size than the camera.
   bool extractTemplate(const ImagePyramid& first);
 
   /// Mean absolute gray difference between the template and `second` rotated back by `rotation`, large ones

@@ -1,6 +1,7 @@
 #include "tet_line_tracker/refinement/line_refiner.h"
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -141,6 +142,20 @@ TEST(LineRefiner, ALineOutsideTheImageComesBackWithoutSupport) {
   EXPECT_EQ(refiner.fit(image, outside, 20.0F).support, 0.0F);
   const LineSegment point{{50.0F, 50.0F}, {50.0F, 50.0F}};
   EXPECT_EQ(refiner.fit(image, point, 20.0F).support, 0.0F);
+}
+
+TEST(LineRefiner, ALineThatIsNowhereComesBackWithoutSupport) {
+  const LineRefiner refiner(LineRefinerParameters{});
+  const cv::Mat image = edgeImage(0.0F, 60.0F, 0.0F, kMiddle);
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  for (const float value : {std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity, 1e30F, -1e18F}) {
+    for (const LineSegment& line :
+         {LineSegment{{value, 99.6F}, {160.0F, 99.6F}}, LineSegment{{80.0F, 99.6F}, {160.0F, value}},
+          LineSegment{{value, value}, {value, value}}}) {
+      EXPECT_EQ(refiner.contrastOf(image, line), 0.0F) << value;
+      EXPECT_EQ(refiner.fit(image, line, 60.0F).support, 0.0F) << value;
+    }
+  }
 }
 
 }  // namespace
