@@ -6,6 +6,7 @@
 
 #include "camera/camera_models.h"
 #include "geometry/so3.h"
+#include "motion/gyro_bias.h"
 #include "motion/gyro_integrator.h"
 #include "motion/rotation_aligner.h"
 
@@ -16,15 +17,17 @@ constexpr int kCoarseLevel = 4;
 constexpr int kFineLevel = 3;
 constexpr int kCoarseIterations = 12;
 constexpr int kFineIterations = 6;
-constexpr int kBiasIterations = 3;
-
-/// The bias of a gyroscope is learned as a mean over about this share of an image each, up to this size
-/// [rad/s].
-constexpr float kBiasShare = 0.05F;
-constexpr float kMaxGyroBias = 0.1F;
 
 /// A prediction must make the images fit at least this much better than no motion does.
 constexpr float kMinImprovement = 0.9F;
+
+/// The gyroscope's rotation, and one that was found from it, must fit at least this much better than the one
+/// that was found from the images alone.
+constexpr float kMinLead = 0.95F;
+
+/// Gyroscope and images contradict each other when their rotations differ by more than this [rad]: parallax
+/// looks like a few milliradians from image to image.
+constexpr float kAgreement = 0.015F;
 
 }  // namespace
 
@@ -52,7 +55,11 @@ class MotionPrior::Implementation {
     camera_ = std::move(camera);
     image_size_ = cv::Size();
   }
-  void setImuRotation(const Eigen::Matrix3d& camera_from_imu) { camera_from_imu_ = camera_from_imu; }
+  void setImuRotation(const Eigen::Matrix3d& camera_from_imu) {
+    if (camera_from_imu_ && *camera_from_imu_ != camera_from_imu) gyro_bias_.reset();
+    camera_from_imu_ = camera_from_imu;
+  }
+  Eigen::Vector3d gyroBias() const { return -gyro_bias_.value().cast<double>(); }
   void addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3d& velocity) {
     gyro_.add(stamp_ns, velocity);
   }
@@ -68,8 +75,12 @@ class MotionPrior::Implementation {
  private:
   void prepareCamera(const ImagePyramid& pyramid);
   std::optional<Eigen::Vector3f> integrateGyro(std::int64_t stamp_ns) const;
-  void learnGyroBias(const Eigen::Vector3f& measured, const Eigen::Vector3f& aligned, float interval_s);
   Eigen::Vector3f alignImages(const ImagePyramid& pyramid);
+  /// Rotation from what the gyroscope `measured` and what the images alone have `seen`, whichever fits
+  /// better; nothing when they contradict each other. Learns the bias.
+  std::optional<Eigen::Vector3f> fuse(RotationAligner& aligner, const ImagePyramid& pyramid,
+                                      const Eigen::Vector3f& measured, Eigen::Vector3f seen, float max_cost,
+                                      float interval_s);
 
   MotionPriorParameters parameters_;
   std::shared_ptr<const CameraModel> camera_;
@@ -79,7 +90,7 @@ class MotionPrior::Implementation {
   GyroIntegrator gyro_;
   RotationAligner coarse_{kCoarseLevel};
   RotationAligner fine_{kFineLevel};
-  Eigen::Vector3f gyro_bias_{Eigen::Vector3f::Zero()};  ///< in the camera's optical frame [rad/s]
+  GyroBias gyro_bias_;  ///< of directions in the camera's optical frame, which rotate against the camera
   std::int64_t last_stamp_ns_{0};
   Eigen::Vector3f last_rotation_{Eigen::Vector3f::Zero()};
 };
@@ -108,14 +119,6 @@ std::optional<Eigen::Vector3f> MotionPrior::Implementation::integrateGyro(std::i
   return so3Log(*camera_from_imu_ * *rotation * camera_from_imu_->transpose()).cast<float>();
 }
 
-void MotionPrior::Implementation::learnGyroBias(const Eigen::Vector3f& measured,
-                                                const Eigen::Vector3f& aligned, float interval_s) {
-  const Eigen::Vector3f difference = (measured - aligned) / interval_s;
-  // Parallax and blur disturb single images: a slow mean, and nothing that no gyroscope does.
-  if (!difference.allFinite() || difference.norm() > kMaxGyroBias) return;
-  gyro_bias_ += kBiasShare * (difference - gyro_bias_);
-}
-
 Eigen::Vector3f MotionPrior::Implementation::alignImages(const ImagePyramid& pyramid) {
   // From standing still and from going on as before, whichever fits better.
   Eigen::Vector3f start = Eigen::Vector3f::Zero();
@@ -126,6 +129,24 @@ Eigen::Vector3f MotionPrior::Implementation::alignImages(const ImagePyramid& pyr
   return fine_.hasTemplate() ? fine_.align(pyramid, start, kFineIterations) : start;
 }
 
+std::optional<Eigen::Vector3f> MotionPrior::Implementation::fuse(RotationAligner& aligner,
+                                                                 const ImagePyramid& pyramid,
+                                                                 const Eigen::Vector3f& measured,
+                                                                 Eigen::Vector3f seen, float max_cost,
+                                                                 float interval_s) {
+  const Eigen::Vector3f corrected = measured - interval_s * gyro_bias_.value();
+  const float cost = aligner.cost(pyramid, corrected);
+  if (cost < max_cost) {
+    // Where the images alone go astray, the gyroscope leads them back.
+    const Eigen::Vector3f led = aligner.align(pyramid, corrected, kFineIterations);
+    if (!seen.allFinite() || aligner.cost(pyramid, led) < kMinLead * aligner.cost(pyramid, seen)) seen = led;
+  }
+  gyro_bias_.learn(measured, seen, interval_s);
+  if (!(cost < max_cost) && !((seen - corrected).norm() < kAgreement)) return std::nullopt;
+  const bool leads = !seen.allFinite() || cost < kMinLead * aligner.cost(pyramid, seen);
+  return leads ? corrected : seen;
+}
+
 MotionPrediction MotionPrior::Implementation::predict(const ImagePyramid& pyramid, std::int64_t stamp_ns) {
   MotionPrediction prediction;
   if (parameters_.prior == "none") return prediction;
@@ -134,26 +155,21 @@ MotionPrediction MotionPrior::Implementation::predict(const ImagePyramid& pyrami
   if (aligner.hasTemplate()) {
     const float max_cost = kMinImprovement * aligner.cost(pyramid, Eigen::Vector3f::Zero());
     Eigen::Vector3f rotation = Eigen::Vector3f::Zero();
+    const Eigen::Vector3f seen = alignImages(pyramid);
     const std::optional<Eigen::Vector3f> measured = integrateGyro(stamp_ns);
-    const float interval_s = 1e-9F * static_cast<float>(stamp_ns - last_stamp_ns_);
-    const Eigen::Vector3f corrected =
-        measured ? Eigen::Vector3f(*measured - interval_s * gyro_bias_) : rotation;
-    if (measured && aligner.cost(pyramid, corrected) < max_cost) {
+    const std::optional<Eigen::Vector3f> fused =
+        measured ? fuse(aligner, pyramid, *measured, seen, max_cost,
+                        1e-9F * static_cast<float>(stamp_ns - last_stamp_ns_))
+                 : std::nullopt;
+    if (fused && fused->allFinite() && aligner.cost(pyramid, *fused) < max_cost) {
       prediction.source = MotionPrediction::Source::kImu;
-      rotation = corrected;
-      learnGyroBias(*measured, aligner.align(pyramid, corrected, kBiasIterations), interval_s);
-    } else if (!measured || parameters_.prior == "auto") {
-      const Eigen::Vector3f found = alignImages(pyramid);
-      if (found.allFinite() && aligner.cost(pyramid, found) < max_cost) {
-        prediction.source = MotionPrediction::Source::kImage;
-        rotation = found;
-      }
+      rotation = *fused;
+    } else if ((!measured || parameters_.prior == "auto") && seen.allFinite() &&
+               aligner.cost(pyramid, seen) < max_cost) {
+      prediction.source = MotionPrediction::Source::kImage;
+      rotation = seen;
     }
-    // The norm in single precision, as the rotation vector.
-    const double angle = static_cast<double>(rotation.norm());
-    if (angle > 0.0) {
-      prediction.rotation = Eigen::AngleAxisd(angle, rotation.cast<double>() / angle).toRotationMatrix();
-    }
+    prediction.rotation = so3Exp(rotation.cast<double>()).toRotationMatrix();
     last_rotation_ = rotation;
   }
   coarse_.extractTemplate(pyramid);
@@ -195,6 +211,9 @@ void MotionPrior::setImuRotation(const Eigen::Matrix3d& camera_from_imu) {
 }
 void MotionPrior::addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3d& angular_velocity) {
   implementation_->addAngularVelocity(stamp_ns, angular_velocity);
+}
+Eigen::Vector3d MotionPrior::gyroBias() const {
+  return implementation_->gyroBias();
 }
 void MotionPrior::reset() {
   implementation_->reset();
