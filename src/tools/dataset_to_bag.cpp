@@ -31,6 +31,7 @@ void matchSize(CameraCalibration& camera, const cv::Size& size) {
                              std::to_string(camera.height) + " pixels, the images have " +
                              std::to_string(size.width) + "x" + std::to_string(size.height));
   }
+  makeCameraModel(camera);  // throws when it is not plausible
 }
 
 /// Writes the streams of a dataset in the order of their stamps.

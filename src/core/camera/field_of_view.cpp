@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/clamp.h"
+
 namespace tet_line_tracker {
 namespace {
 
@@ -38,7 +40,7 @@ std::optional<LineSegment> FieldOfView::clip(const LineCurve& curve, float min_l
   float in_view = start_in_view ? 0.0F : 1.0F;
   if (!start_in_view && !end_in_view) {
     // Steps that a part of min_length cannot slip through.
-    const int steps = 1 + static_cast<int>(segment.length() / min_length);
+    const int steps = 1 + static_cast<int>(clampOrLow(segment.length() / min_length, 0.0F, 1e4F));
     int i = 1;
     while (i < steps && !contains(curve.at(static_cast<float>(i) / static_cast<float>(steps)))) ++i;
     if (i >= steps) return std::nullopt;
@@ -60,6 +62,7 @@ Eigen::Vector2f FieldOfView::lastInView(const LineCurve& curve, float in_view, f
   Eigen::Vector2f last = curve.at(in_view);
   while (std::abs(beyond - in_view) * curve.chord.length() > kCutAccuracy) {
     const float middle = 0.5F * (in_view + beyond);
+    if (middle == in_view || middle == beyond) break;  // float knows nothing in between
     const Eigen::Vector2f point = curve.at(middle);
     if (contains(point)) {
       last = point;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "geometry/clamp.h"
 #include "kernels/kernels.h"
 
 namespace tet_line_tracker {
@@ -120,7 +121,8 @@ void EdgeDetector::growOneWay(const Axis& axis, int anchor_t, int step, float si
   std::size_t committed = points_.size();
   for (int t = anchor_t + step; t >= first && t < axis.size_along - first; t += step) {
     const float predicted = fit.at(static_cast<float>(t));
-    if (!(predicted >= static_cast<float>(first))) break;
+    // Written so that NaN fails, and before the cast, so that a steep fit does.
+    if (!(predicted >= static_cast<float>(first) && predicted < static_cast<float>(axis.size_across))) break;
     const int o = cvRound(predicted);
     if (o >= axis.size_across - first) break;
     std::ptrdiff_t i = t * axis.along + o * axis.across;
@@ -177,7 +179,8 @@ void EdgeDetector::growOneWay(const Axis& axis, int anchor_t, int step, float si
 
 void EdgeDetector::markLine(const Axis& axis, const Fit& fit, float begin, float end) {
   for (int t = static_cast<int>(begin); t <= static_cast<int>(end); ++t) {
-    const int o = std::clamp(cvRound(fit.at(static_cast<float>(t))), 1, axis.size_across - 2);
+    const int o =
+        cvRound(clampOrLow(fit.at(static_cast<float>(t)), 1.0F, static_cast<float>(axis.size_across - 2)));
     const std::ptrdiff_t i = t * axis.along + o * axis.across;
     for (const std::ptrdiff_t k : {i - axis.across, i, i + axis.across}) {
       gradient_.magnitude()[k] |= kTaken | kTried;
@@ -201,7 +204,7 @@ void EdgeDetector::markTracked(const LineCurve& line) {
     fit.mean_o = along_x ? middle.y() : middle.x();
     const float half = 0.5F * std::abs(along_x ? way.x() : way.y());
     const auto last = static_cast<float>(axis.size_along - 1);
-    markLine(axis, fit, std::clamp(fit.mean_t - half, 0.0F, last), std::clamp(fit.mean_t + half, 0.0F, last));
+    markLine(axis, fit, clampOrLow(fit.mean_t - half, 0.0F, last), clampOrLow(fit.mean_t + half, 0.0F, last));
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "flow/patch_flow.h"
+#include "geometry/clamp.h"
 #include "image/patch_reader.h"
 
 namespace tet_line_tracker {
@@ -67,7 +68,8 @@ void EndpointTracker::extractTemplate(const ImagePyramid& first, const LineCurve
     PatchRow& row = patches.content_->levels[j];
     const float spacings =
         std::ceil(scale * line.chord.length() / static_cast<float>(parameters_.patch_spacing));
-    row.count = std::clamp(static_cast<std::size_t>(1.0F + spacings), std::size_t{2}, layout_.max_patches);
+    row.count =
+        static_cast<std::size_t>(clampOrLow(1.0F + spacings, 2.0F, static_cast<float>(layout_.max_patches)));
     for (std::size_t i = 0; i < row.count; ++i) {
       Patch& patch = row.patches[i];
       patch.fraction = static_cast<float>(i) / static_cast<float>(row.count - 1);

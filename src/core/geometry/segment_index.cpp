@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/clamp.h"
+
 namespace tet_line_tracker {
 namespace {
 
@@ -66,7 +68,7 @@ int SegmentIndex::sectorOf(const LineSegment& segment) {
   const float sum = std::abs(d.x()) + std::abs(d.y());
   const float share = sum > 0.0F ? d.y() / sum : 0.0F;
   const float angle = d.x() >= 0.0F ? 1.0F + share : 3.0F - share;
-  return std::clamp(static_cast<int>(0.25F * static_cast<float>(kSectors) * angle), 0, kSectors - 1);
+  return static_cast<int>(clampOrLow(0.25F * static_cast<float>(kSectors) * angle, 0.0F, kSectors - 1));
 }
 
 }  // namespace tet_line_tracker

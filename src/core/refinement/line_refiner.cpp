@@ -28,6 +28,13 @@ struct Samples {
   int count{0};
 };
 
+/// Whether the pixels of `line` can be counted: it is finite, longer than a pixel, and not too far outside.
+bool canBeSampled(const LineSegment& line) {
+  constexpr float kFarOutside = 1e6F;
+  return (line.start.array().abs() < kFarOutside).all() && (line.end.array().abs() < kFarOutside).all() &&
+         line.length() > 1.0F;
+}
+
 /// Profiles along the image axis that is nearer to the normal: whole pixels, no interpolation.
 class ProfileSampler {
  public:
@@ -93,7 +100,8 @@ class ProfileSampler {
   }
 
  private:
-  /// Rounds what lies in an image or not too far left of it; what is farther stays outside.
+  /// Precondition: canBeSampled(). Rounds what lies in an image or not too far left of it; what is farther
+  /// stays outside.
   static int nearestPixel(float place) {
     constexpr int kShift = 1 << 12;
     return static_cast<int>(place + (static_cast<float>(kShift) + 0.5F)) - kShift;
@@ -170,6 +178,7 @@ WeightedFit fitOffsets(const kernels::EdgeSamples& samples, float min_slope) {
 }  // namespace
 
 float LineRefiner::contrastOf(const cv::Mat& gray, const LineCurve& line) const {
+  if (!canBeSampled(line.chord)) return 0.0F;
   constexpr int kCount = 2 * kernels::kLanes;
   ProfileSampler sampler(gray, line, 1.0F, 1.5F);
   Samples samples;
@@ -185,7 +194,7 @@ EdgeFit LineRefiner::fit(const cv::Mat& gray, const LineCurve& curve, float cont
   const LineSegment& line = curve.chord;
   result.segment = line;
   const float length = line.length();
-  if (!(length > 1.0F)) return result;
+  if (!canBeSampled(line)) return result;
   ProfileSampler sampler(gray, curve, contrast, static_cast<float>(parameters_.search_px));
   const float min_slope = std::max(kMinSlope, kMinContrastShare * std::abs(contrast));
 
