@@ -64,7 +64,7 @@ TEST_F(EurocFolder, DoesNotWaitForAFifo) {
        {"mav0/cam0/data.csv", "mav0/cam0/sensor.yaml", "mav0/cam0/data/1000000000100000000.png"}) {
     std::filesystem::rename(root() / name, root() / "aside");
     ASSERT_EQ(mkfifo((root() / name).c_str(), 0600), 0);
-    const ToolRun run = runTool("dataset_to_bag", {"euroc", root().string(), bag()}, "timeout 60 ");
+    const ToolRun run = runTool("dataset_to_bag", {"euroc", root().string(), bag()}, "timeout -s KILL 60 ");
     EXPECT_EQ(run.status, 1);
     EXPECT_EQ(run.errors, "dataset_to_bag: cannot read " + (root() / name).string() + "\n");
     std::filesystem::rename(root() / "aside", root() / name);

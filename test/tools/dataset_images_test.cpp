@@ -115,11 +115,11 @@ TEST_F(ImageFolder, RefusesJpegsThatAreCorruptInTheirMiddle) {
 
 TEST_F(ImageFolder, TakesRegularFilesOnly) {
   ASSERT_EQ(mkfifo((root() / "img3.png").c_str(), 0600), 0);
-  const ToolRun run = runTool("dataset_to_bag", {"images", root().string(), bag()}, "timeout 60 ");
+  const ToolRun run = runTool("dataset_to_bag", {"images", root().string(), bag()}, "timeout -s KILL 60 ");
   EXPECT_EQ(run.status, 0) << run.errors;
   EXPECT_EQ(readTopic<sensor_msgs::Image>(bag(), "/cam0/image_raw").size(), 3U);
   const ToolRun video =
-      runTool("dataset_to_bag", {"video", (root() / "img3.png").string(), bag()}, "timeout 60 ");
+      runTool("dataset_to_bag", {"video", (root() / "img3.png").string(), bag()}, "timeout -s KILL 60 ");
   EXPECT_EQ(video.status, 1);
   EXPECT_EQ(video.errors, "dataset_to_bag: " + (root() / "img3.png").string() + " is no regular file\n");
 }

@@ -98,7 +98,7 @@ class OutputFile : public ::testing::Test {
     ASSERT_EQ(lstat(output.c_str(), &before), 0);
     const std::size_t files_before = files();
     for (const Tool& tool : tools) {
-      const ToolRun run = runTool(tool.name, tool.arguments(in("input"), output), "timeout 60 ");
+      const ToolRun run = runTool(tool.name, tool.arguments(in("input"), output), "timeout -s KILL 60 ");
       EXPECT_EQ(run.status, 1) << tool.name;
       EXPECT_EQ(run.errors, tool.name + ": cannot write " + output + ": it is " + what +
                                 ", needs a new or a regular file\n");

@@ -31,7 +31,7 @@ struct ToolRun {
 };
 
 /// Runs a program of this package to its end. `prefix`: what the shell is to do first ("ulimit -f 8; "), or
-/// the command that is to start the program ("timeout 60 ").
+/// the command that is to start the program ("timeout -s KILL 60 ").
 ToolRun runTool(const std::string& name, const std::vector<std::string>& arguments,
                 const std::string& prefix = {});
 

@@ -336,7 +336,7 @@ TEST_F(TrackBagInput, RefusesAParameterThatAFileSetsTwice) {
 
 TEST_F(TrackBagInput, DoesNotWaitForAFifo) {
   ASSERT_EQ(mkfifo(bag().c_str(), 0600), 0);
-  const ToolRun run = runTool("track_bag", {bag(), out()}, "timeout 60 ");
+  const ToolRun run = runTool("track_bag", {bag(), out()}, "timeout -s KILL 60 ");
   expectRefusal(run, "cannot read " + bag() + ": it is no regular file");
 }
 
