@@ -4,6 +4,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
+#include <sys/stat.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include "bag_content.h"
@@ -59,6 +60,18 @@ TEST_F(EurocFolder, KeepsStampsImagesAndImu) {
   EXPECT_EQ(imu[1].message.angular_velocity.y, 0.5);
   EXPECT_EQ(imu[1].message.linear_acceleration.z, 9.82);
   EXPECT_EQ(imu[1].message.header.frame_id, "imu0");
+}
+
+TEST_F(EurocFolder, DoesNotWaitForAFifo) {
+  for (const char* const name :
+       {"mav0/cam0/data.csv", "mav0/cam0/sensor.yaml", "mav0/cam0/data/1000000000100000000.png"}) {
+    std::filesystem::rename(root() / name, root() / "aside");
+    ASSERT_EQ(mkfifo((root() / name).c_str(), 0600), 0);
+    const ToolRun run = runTool("dataset_to_bag", {"euroc", root().string(), bag()}, "timeout -s KILL 60 ");
+    EXPECT_EQ(run.status, 1);
+    EXPECT_EQ(run.errors, "dataset_to_bag: cannot read " + (root() / name).string() + "\n");
+    std::filesystem::rename(root() / "aside", root() / name);
+  }
 }
 
 TEST_F(EurocFolder, KeepsTheCalibration) {
