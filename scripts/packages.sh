@@ -1,4 +1,4 @@
-# Debian packages by purpose: build, run (the demo without a display), rviz, test, lint, benchmark, plot. Sourced by environment.sh.
+# Debian packages by purpose: build, run (the demo without a display), rviz, test, lint, benchmark. Sourced by environment.sh.
 
 if [ -e /opt/ros/noetic/setup.bash ]; then
   # Ubuntu 20.04 with ROS Noetic from packages.ros.org.
