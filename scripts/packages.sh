@@ -16,6 +16,7 @@ if [ -e /opt/ros/noetic/setup.bash ]; then
   packages_test=(libgtest-dev ros-noetic-roslaunch ros-noetic-rostest ros-noetic-rosunit ros-noetic-rviz)
   packages_lint=(clang-format clang-tidy python3-catkin-lint)
   packages_benchmark=(libbenchmark-dev)
+  packages_plot=(python3-matplotlib)
 else
   # Debian 12 packages ROS 1 itself.
   packages_build=(build-essential catkin cmake libboost-program-options-dev libcv-bridge-dev libdiagnostic-updater-dev
@@ -29,4 +30,5 @@ else
   packages_test=(libgtest-dev librostest-dev python3-rostest rviz)
   packages_lint=(catkin-lint clang-format clang-tidy)
   packages_benchmark=(libbenchmark-dev)
+  packages_plot=(python3-matplotlib)
 fi
