@@ -53,8 +53,8 @@ TEST(Mask, ALineThatIsNowhereIsLookedUpAtTheBorder) {
   const cv::Mat white(16, 24, CV_8UC1, cv::Scalar(255));
   const cv::Mat black(16, 24, CV_8UC1, cv::Scalar(0));
   for (const float value : {kNan, kInfinity, 1e30F}) {
-    EXPECT_TRUE(mostlyInMask({{value, 3.0F}, {5.0F, -value}}, white));
-    EXPECT_FALSE(mostlyInMask({{value, 3.0F}, {5.0F, -value}}, black));
+    EXPECT_TRUE(mostlyInMask(LineSegment{{value, 3.0F}, {5.0F, -value}}, white));
+    EXPECT_FALSE(mostlyInMask(LineSegment{{value, 3.0F}, {5.0F, -value}}, black));
   }
 }
 
