@@ -384,7 +384,7 @@ TEST(Nodelet, LosesNoImageForWantOfAnImuThatIsOutOfStepAndTakesItBack) {
       rate.sleep();
     }
   };
-  fly(100, 0.5);
+  fly(100, 900.0);
   ASSERT_TRUE(stream.receives(100)) << stream.lines.size() << " images were tracked";
   EXPECT_TRUE(isLogged({"/imu_behind/imu is out of step", "s behind the image"}));
   EXPECT_TRUE(waitFor([&] {
