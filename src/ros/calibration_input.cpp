@@ -1,62 +1,58 @@
 #include "calibration_input.h"
 
-#include <stdexcept>
-
-#include "camera_info.h"
+#include <algorithm>
+#include <cmath>
 
 namespace tet_line_tracker {
 namespace {
 
-bool same(const CameraCalibration& a, const CameraCalibration& b) {
-  return a.model == b.model && a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy &&
-         a.cx == b.cx && a.cy == b.cy && a.distortion == b.distortion;
+constexpr char kConsequence[] = "; lines are published in pixels, their normalised endpoints are NaN";
+
+/// Equal, or both NaN: a calibration of NaN is the same one each time it comes.
+bool sameNumber(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
 }
 
-std::string sizeText(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height);
+bool same(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b) {
+  return a.distortion_model == b.distortion_model && a.width == b.width && a.height == b.height &&
+         std::equal(a.K.begin(), a.K.end(), b.K.begin(), b.K.end(), sameNumber) &&
+         std::equal(a.D.begin(), a.D.end(), b.D.begin(), b.D.end(), sameNumber);
 }
 
 }  // namespace
 
 std::optional<std::string> CalibrationInput::update(const sensor_msgs::CameraInfo& info) {
-  const CameraCalibration calibration = fromCameraInfo(info);
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (calibration_ && same(calibration, *calibration_)) return std::nullopt;
-  calibration_ = calibration;
-  mismatch_told_ = false;
-  try {
-    camera_ = makeCameraModel(calibration);
-    state_ = calibration.model + ", " + sizeText(calibration.width, calibration.height);
-    return std::nullopt;
-  } catch (const std::invalid_argument& error) {
-    camera_.reset();
-    state_ = std::string("camera_info cannot be used: ") + error.what();
-    return state_ + "; lines are published in pixels, their normalised endpoints are NaN";
-  }
+  if (info_ && same(info, *info_)) return std::nullopt;
+  info_ = info;
+  choice_ = chooseCamera(info);
+  size_problem_.clear();
+  size_warning_.reset();
+  if (choice_.camera) return std::nullopt;
+  return choice_.problem + kConsequence;
 }
 
 CalibrationInput::Model CalibrationInput::modelFor(int width, int height) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!calibration_) {
-    ++images_without_;
-    if (images_without_ != kPatienceImages) return {};
-    return {nullptr, "no camera_info after " + std::to_string(kPatienceImages) +
-                         " images; lines are published in pixels, their normalised endpoints are NaN"};
+  if (!info_) {
+    if (++images_without_ != kPatienceImages) return {};
+    return {nullptr, "no camera_info after " + std::to_string(kPatienceImages) + " images" + kConsequence};
   }
-  if (!camera_) return {};
-  const bool fits = (calibration_->width == 0 || calibration_->width == width) &&
-                    (calibration_->height == 0 || calibration_->height == height);
-  if (fits) return {camera_, std::nullopt};
-  if (mismatch_told_) return {};
-  mismatch_told_ = true;
-  return {nullptr, "camera_info is for images of " + sizeText(calibration_->width, calibration_->height) +
-                       ", the images have " + sizeText(width, height) +
-                       "; lines are published in pixels, their normalised endpoints are NaN"};
+  if (!choice_.camera) return {};
+  size_problem_ = sizeProblem(*info_, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+  if (size_problem_.empty()) return {choice_.camera, std::nullopt};
+  if (!size_warning_.isDue()) return {};
+  return {nullptr, size_problem_ + kConsequence};
 }
 
 std::string CalibrationInput::state() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return mismatch_told_ ? state_ + ", does not fit the images" : state_;
+  if (!info_) return "no camera_info so far";
+  if (!choice_.camera) return choice_.problem;
+  if (!size_problem_.empty()) return size_problem_;
+  const std::string& model = info_->distortion_model;
+  return (model.empty() ? "no distortion" : model) + ", " + std::to_string(info_->width) + "x" +
+         std::to_string(info_->height);
 }
 
 }  // namespace tet_line_tracker

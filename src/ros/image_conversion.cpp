@@ -99,4 +99,12 @@ cv::Mat toGray(const sensor_msgs::Image& image, double mono16_scale) {
   }
 }
 
+GrayImage readGray(const sensor_msgs::Image& image, double mono16_scale) {
+  try {
+    return {toGray(image, mono16_scale), {}};
+  } catch (const std::invalid_argument& error) {
+    return {{}, error.what()};
+  }
+}
+
 }  // namespace tet_line_tracker

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include <sensor_msgs/Image.h>
 #include <opencv2/core.hpp>
 
@@ -11,5 +13,13 @@ namespace tet_line_tracker {
 /// by cv_bridge. Throws std::invalid_argument with one sentence for another encoding, and for a message whose
 /// size, step or data do not fit together.
 cv::Mat toGray(const sensor_msgs::Image& image, double mono16_scale);
+
+/// What the node and track_bag make of an image message: one that cannot be read is dropped and counted, and
+/// the stream goes on.
+struct GrayImage {
+  cv::Mat gray;         ///< as of toGray(); empty: drop the image
+  std::string problem;  ///< why it is dropped; empty when it is not
+};
+GrayImage readGray(const sensor_msgs::Image& image, double mono16_scale);
 
 }  // namespace tet_line_tracker

@@ -1,92 +1,76 @@
 #include "imu_input.h"
 
-#include <tf2/exceptions.h>
-#include <Eigen/Geometry>
-
-#include <chrono>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
+#include <cstdio>
 
 namespace tet_line_tracker {
 namespace {
 
 constexpr std::int64_t kJumpNs = 100000000;  // back by more than this: not a late message
-constexpr std::size_t kMaxSamples = 4000;    // of a stretch, and
-constexpr std::size_t kMaxStretches = 4;     // if no image comes
+constexpr std::size_t kMaxSamples = 4000;    // of a segment, and
+constexpr std::size_t kMaxSegments = 4;      // if no image comes
 
 }  // namespace
 
-std::optional<Eigen::Matrix3d> imuRotation(const tf2::BufferCore& frames, const std::string& imu_frame,
-                                           const std::string& camera_frame) {
-  try {
-    const auto q = frames.lookupTransform(camera_frame, imu_frame, ros::Time(0)).transform.rotation;
-    return Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
-  } catch (const tf2::TransformException&) {
-    return std::nullopt;
-  }
-}
-
-std::optional<Eigen::Matrix3d> imuRotation(const std::string& quaternion) {
-  if (quaternion.empty()) return std::nullopt;
-  std::istringstream text(quaternion);
-  Eigen::Quaterniond q;
-  std::string rest;
-  if (!(text >> q.x() >> q.y() >> q.z() >> q.w()) || text >> rest || !(std::abs(q.norm() - 1.0) < 0.01)) {
-    throw std::invalid_argument("parameter imu_rotation is " + quaternion +
-                                ", needs a unit quaternion qx qy qz qw");
-  }
-  return q.normalized().toRotationMatrix();
-}
-
 void ImuInput::add(const sensor_msgs::Imu& message) {
-  const auto& w = message.angular_velocity;
-  const Sample sample{static_cast<std::int64_t>(message.header.stamp.toNSec()), {w.x, w.y, w.z}};
+  const AngularVelocity sample = toAngularVelocity(message);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     frame_ = message.header.frame_id;
     silent_ = false;
-    if (stretches_.empty()) stretches_.emplace_back();
-    if (!stretches_.back().empty()) {
-      const std::int64_t last = stretches_.back().back().stamp_ns;
-      if (sample.stamp_ns < last - kJumpNs) {
-        stretches_.emplace_back();
-      } else if (sample.stamp_ns <= last) {
-        return;
+    last_stamp_ns_ = sample.stamp_ns;
+    if (sample.stamp_ns != 0) {  // as with images, 0 is no stamp
+      if (segments_.empty() || sample.stamp_ns < segments_.back().newest().value_or(0) - kJumpNs) {
+        segments_.emplace_back();
       }
-    } else if (last_fed_ && sample.stamp_ns < last_fed_->stamp_ns - kJumpNs) {
-      stretches_.emplace_back();
+      segments_.back().add(sample);
+      segments_.back().keepNewest(kMaxSamples);
+      if (segments_.size() > kMaxSegments) segments_.pop_front();
+      monitor_.addMessage(sample.stamp_ns, Clock::now());
     }
-    stretches_.back().push_back(sample);
-    if (stretches_.back().size() > kMaxSamples) stretches_.back().pop_front();
-    if (stretches_.size() > kMaxStretches) leaveStretch();
   }
-  arrived_.notify_all();
+  changed_.notify_all();
 }
 
-bool ImuInput::waitFor(std::int64_t stamp_ns, double patience_s) {
+bool ImuInput::waitFor(std::int64_t stamp_ns, double patience_s, const std::function<bool()>& is_crowded) {
   std::unique_lock<std::mutex> lock(mutex_);
   const auto settled = [&] {
-    leaveOldStretches(stamp_ns);
-    return covers(stamp_ns) || stretches_.size() > 1;  // nothing is added to a complete stretch
+    dropOldSegments(stamp_ns);
+    return covers(stamp_ns) || segments_.size() > 1;  // nothing is added to a complete segment
   };
-  if (!settled() && !silent_) {
+  const auto patience =
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(patience_s));
+  const Clock::time_point begin = Clock::now();
+  Clock::duration affordable = patience;
+  if (!settled() && !silent_ && monitor_.inStep() && !is_crowded()) {
     silent_ = true;
-    arrived_.wait_for(lock, std::chrono::duration<double>(patience_s), settled);
+    const bool cut = changed_.wait_for(lock, patience, [&] { return settled() || is_crowded(); });
+    if (cut) affordable = Clock::now() - begin;
   }
-  return covers(stamp_ns);
+  if (covers(stamp_ns) && !isAheadOf(stamp_ns)) {
+    monitor_.addCovered();
+    return true;
+  }
+  if (!frame_) return false;  // nothing has come that could be out of step
+  const Clock::time_point now = Clock::now();
+  // A message that comes at its own stamp and a second later is a second late, however long the image waited
+  // for it.
+  const std::chrono::nanoseconds lag(isAheadOf(stamp_ns) ? stamp_ns - *segments_.front().oldest()
+                                                         : stamp_ns - last_stamp_ns_ + (now - begin).count());
+  monitor_.addMissed(stamp_ns, lag, affordable, now);
+  return false;
+}
+
+void ImuInput::wake() {
+  // With the mutex, as the waiting thread might otherwise sleep between its question and the news.
+  { const std::lock_guard<std::mutex> lock(mutex_); }
+  changed_.notify_all();
 }
 
 void ImuInput::feed(std::int64_t stamp_ns, LineTracker& tracker) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  leaveOldStretches(stamp_ns);
-  if (stretches_.empty()) return;
-  Stretch& stretch = stretches_.front();
-  while (!stretch.empty() && !(last_fed_ && last_fed_->stamp_ns >= stamp_ns)) {
-    last_fed_ = stretch.front();
-    stretch.pop_front();
-    tracker.addAngularVelocity(last_fed_->stamp_ns, last_fed_->angular_velocity);
-  }
+  dropOldSegments(stamp_ns);
+  if (!segments_.empty()) segments_.front().feed(stamp_ns, tracker);
 }
 
 std::optional<std::string> ImuInput::frame() const {
@@ -94,26 +78,46 @@ std::optional<std::string> ImuInput::frame() const {
   return frame_;
 }
 
-/// An image of the time after a jump back makes the messages from before it worthless.
-void ImuInput::leaveOldStretches(std::int64_t stamp_ns) {
-  while (stretches_.size() > 1) {
-    const Stretch& stretch = stretches_.front();
-    const std::optional<std::int64_t> first =
-        last_fed_ ? last_fed_->stamp_ns
-                  : (stretch.empty() ? std::nullopt : std::optional<std::int64_t>(stretch.front().stamp_ns));
-    if (first && stamp_ns >= *first - kJumpNs) return;
-    leaveStretch();
+std::optional<std::string> ImuInput::outOfStep() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (monitor_.inStep()) return std::nullopt;
+  if (last_stamp_ns_ == 0) return "its messages have no stamp";
+  const double lag_s = std::chrono::duration<double>(monitor_.lag()).count();
+  char text[120];
+  std::snprintf(text, sizeof text, "its newest message is %.3f s %s the image", std::abs(lag_s),
+                lag_s < 0.0 ? "ahead of" : "behind");
+  return std::string(text);
+}
+
+/// An image of the time after a jump makes the messages from before it worthless.
+void ImuInput::dropOldSegments(std::int64_t stamp_ns) {
+  while (segments_.size() > 1) {
+    const Segment& segment = segments_.front();
+    const std::optional<std::int64_t> oldest = segment.oldest();
+    const bool reaches_back = oldest && stamp_ns >= *oldest - kJumpNs;
+    if (reaches_back && (segment.covers(stamp_ns) || !isInLaterSegment(stamp_ns))) return;
+    segments_.pop_front();
   }
 }
 
-void ImuInput::leaveStretch() {
-  stretches_.pop_front();
-  last_fed_.reset();
+/// One message with a wrong stamp begins a segment too, in which the good ones then go on.
+bool ImuInput::isInLaterSegment(std::int64_t stamp_ns) const {
+  for (std::size_t i = 1; i < segments_.size(); ++i) {
+    const std::optional<std::int64_t> oldest = segments_[i].oldest();
+    if (oldest && *oldest <= stamp_ns && segments_[i].covers(stamp_ns)) return true;
+  }
+  return false;
 }
 
 bool ImuInput::covers(std::int64_t stamp_ns) const {
-  if (last_fed_ && last_fed_->stamp_ns >= stamp_ns) return true;
-  return !stretches_.empty() && !stretches_.front().empty() && stretches_.front().back().stamp_ns >= stamp_ns;
+  return !segments_.empty() && segments_.front().covers(stamp_ns);
+}
+
+/// Whether even the oldest sample lies so far after the image that there is nothing to integrate from.
+bool ImuInput::isAheadOf(std::int64_t stamp_ns) const {
+  if (segments_.empty()) return false;
+  const std::optional<std::int64_t> oldest = segments_.front().oldest();
+  return oldest && *oldest > stamp_ns + kJumpNs;
 }
 
 }  // namespace tet_line_tracker

@@ -1,61 +1,60 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
 
 #include <sensor_msgs/Imu.h>
-#include <tf2/buffer_core.h>
-#include <Eigen/Core>
 
+#include "angular_velocity_queue.h"
+#include "imu_sync_monitor.h"
 #include "tet_line_tracker/tracking/line_tracker.h"
 
 namespace tet_line_tracker {
 
-/// Rotation that takes directions in `imu_frame` to `camera_frame`, by the newest transforms of `frames`;
-/// nothing when they do not connect the two.
-std::optional<Eigen::Matrix3d> imuRotation(const tf2::BufferCore& frames, const std::string& imu_frame,
-                                           const std::string& camera_frame);
-
-/// The same from a parameter "qx qy qz qw"; nothing when the text is empty. Throws std::invalid_argument when
-/// it is no quaternion of a length near one.
-std::optional<Eigen::Matrix3d> imuRotation(const std::string& quaternion);
-
 /// Holds the messages of an IMU until the image that needs them: each image gets those up to its stamp and
-/// one after it, whenever they came. Thread-safe.
+/// one after it, whenever they came. An IMU that is out of step is not waited for. Thread-safe.
 class ImuInput {
  public:
   void add(const sensor_msgs::Imu& message);
 
-  /// Waits until a message at or after the stamp of an image has come, at most `patience_s`, and not at all
-  /// when the IMU has been silent since it was last waited for in vain. False when there is none.
-  bool waitFor(std::int64_t stamp_ns, double patience_s);
+  /// Waits until a message at or after the stamp of an image has come: at most `patience_s`, not while
+  /// `is_crowded` (newer images would be lost), and not at all for an IMU that has been silent since it was
+  /// last waited for in vain, or that is out of step. False when the image goes without. Call once per image.
+  bool waitFor(
+      std::int64_t stamp_ns, double patience_s,
+      const std::function<bool()>& is_crowded = [] { return false; });
+  /// Has the waiting image ask `is_crowded` again.
+  void wake();
 
   /// Gives `tracker` what it has not had yet up to the stamp of an image and one after it.
   void feed(std::int64_t stamp_ns, LineTracker& tracker);
 
   /// Of the messages; nothing before the first.
   std::optional<std::string> frame() const;
+  /// A sentence on the measured lag while the IMU is out of step; nothing while it is in step.
+  std::optional<std::string> outOfStep() const;
 
  private:
-  struct Sample {
-    std::int64_t stamp_ns;
-    Eigen::Vector3d angular_velocity;
-  };
   /// Messages between two jumps of the stamps, as of a bag that is played in a loop.
-  using Stretch = std::deque<Sample>;
+  using Segment = AngularVelocityQueue;
+  using Clock = ImuSyncMonitor::Clock;
 
-  void leaveOldStretches(std::int64_t stamp_ns);
-  void leaveStretch();
+  void dropOldSegments(std::int64_t stamp_ns);
+  bool isInLaterSegment(std::int64_t stamp_ns) const;
   bool covers(std::int64_t stamp_ns) const;
+  bool isAheadOf(std::int64_t stamp_ns) const;
 
   mutable std::mutex mutex_;  ///< guards everything below
-  std::condition_variable arrived_;
-  std::deque<Stretch> stretches_;   ///< oldest first; each but the last is complete
-  std::optional<Sample> last_fed_;  ///< of the first stretch
+  std::condition_variable changed_;
+  std::deque<Segment> segments_;  ///< oldest first; each but the last is complete
+  ImuSyncMonitor monitor_;
+  std::int64_t last_stamp_ns_{0};  ///< of the message that came last
   std::optional<std::string> frame_;
   bool silent_{false};  ///< since a wait in vain
 };

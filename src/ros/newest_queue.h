@@ -51,6 +51,12 @@ class NewestQueue {
     arrived_.notify_all();
   }
 
+  /// Whether the next item takes the place of the oldest one.
+  bool isFull() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return items_.size() >= capacity_;
+  }
+
   /// Items that gave way to newer ones since construction.
   std::uint64_t replaced() const {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -1,13 +1,14 @@
 #include "node_parameters.h"
 
 #include <XmlRpcValue.h>
+#include <image_transport/image_transport.h>
 
 #include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
 
-#include "imu_input.h"
+#include "imu_extrinsic.h"
 #include "mask_file.h"
 
 namespace tet_line_tracker {
@@ -148,6 +149,19 @@ void loadParameters(const ros::NodeHandle& node, LineTrackerParameters& tracker,
   for (const std::string& sentence : check(tracker)) broken.push_back(sentence);
   for (const std::string& sentence : check(parameters)) broken.push_back(sentence);
   if (!broken.empty()) throw std::invalid_argument(joined(broken));
+}
+
+void checkImageTransport(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
+  std::string transport = "raw";
+  private_node.getParam("image_transport", transport);
+  std::string known;
+  for (const std::string& name : image_transport::ImageTransport(node).getLoadableTransports()) {
+    const std::string short_name = name.substr(name.find('/') + 1);
+    if (short_name == transport) return;
+    known += (known.empty() ? "" : ", ") + short_name;
+  }
+  throw std::invalid_argument("parameter image_transport is " + transport +
+                              ", needs one that is installed: " + known);
 }
 
 }  // namespace tet_line_tracker

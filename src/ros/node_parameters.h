@@ -51,4 +51,8 @@ void loadParameters(const ros::NodeHandle& node, ParameterTable table);
 /// The same for the front end and its node, with the rules between their parameters.
 void loadParameters(const ros::NodeHandle& node, LineTrackerParameters& tracker, NodeParameters& parameters);
 
+/// Throws std::invalid_argument when the transport that the private parameter image_transport asks for is not
+/// there: image_transport itself would find out only after the outputs are advertised.
+void checkImageTransport(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+
 }  // namespace tet_line_tracker

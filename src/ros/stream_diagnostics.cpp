@@ -20,6 +20,14 @@ double seconds(std::chrono::steady_clock::duration duration) {
 
 }  // namespace
 
+Drop dropOf(StreamVerdict verdict) {
+  if (verdict == StreamVerdict::kDropZero) return {DropReason::kZero, "it has no stamp"};
+  if (verdict == StreamVerdict::kDropDuplicate) {
+    return {DropReason::kDuplicate, "its stamp is the one of the image before"};
+  }
+  return {DropReason::kLate, "its stamp is before the last one"};
+}
+
 void StreamDiagnostics::addReceived() {
   const std::lock_guard<std::mutex> lock(mutex_);
   last_image_ = Clock::now();
@@ -127,6 +135,8 @@ void StreamDiagnostics::summarize(const Setup& setup, const Interval& interval,
     status.summary(Status::WARN, "waiting for the first image");
   } else if (!setup.calibrated) {
     status.summaryf(Status::WARN, "%zu lines, not calibrated", lines_live_);
+  } else if (!setup.imu_in_step) {
+    status.summaryf(Status::WARN, "%zu lines, the imu is out of step", lines_live_);
   }
 }
 

@@ -9,11 +9,20 @@
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
 #include "tet_line_tracker/tracking/line_frame.h"
+#include "tet_line_tracker/tracking/stream_gate.h"
 
 namespace tet_line_tracker {
 
 /// Why an image that reached the node was not tracked.
 enum class DropReason { kQueue, kLate, kDuplicate, kZero, kUnreadable, kCount };
+
+/// Reason and sentence for an image that the front end dropped.
+struct Drop {
+  DropReason reason;
+  const char* sentence;
+};
+/// `verdict`: one for which isDropped() holds.
+Drop dropOf(StreamVerdict verdict);
 
 /// What came in, what went out and what was lost, for /diagnostics: counts since the start, rates and times
 /// since the last report. Times are those of the wall clock and never reach a message with lines.
@@ -42,6 +51,7 @@ class StreamDiagnostics {
     std::string calibration;  ///< as CalibrationInput::state() says
     std::string imu;          ///< what is known of it
     bool calibrated{false};   ///< the last image had normalised endpoints
+    bool imu_in_step{true};   ///< its messages come early enough for the images
   };
   /// Fills the status and begins the next interval of rates and times.
   void report(const Setup& setup, diagnostic_updater::DiagnosticStatusWrapper& status);

@@ -1,15 +1,13 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include <rosbag/bag.h>
 #include <Eigen/Core>
 
+#include "../ros/angular_velocity_queue.h"
 #include "tet_line_tracker/tracking/line_tracker.h"
 
 namespace tet_line_tracker {
@@ -25,13 +23,12 @@ class BagImu {
                    LineTracker& tracker) const;
 
   /// Gives `tracker` what it has not had yet up to the stamp of an image and one after it.
-  void feed(std::int64_t stamp_ns, LineTracker& tracker);
+  void feed(std::int64_t stamp_ns, LineTracker& tracker) { samples_.feed(stamp_ns, tracker); }
 
  private:
   const rosbag::Bag& bag_;
   std::string topic_, frame_;
-  std::vector<std::pair<std::int64_t, Eigen::Vector3d>> samples_;  ///< angular velocities by stamp
-  std::size_t next_{0};
+  AngularVelocityQueue samples_;
 };
 
 }  // namespace tet_line_tracker

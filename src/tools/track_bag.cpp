@@ -17,7 +17,7 @@
 
 #include "../evaluation/baselines/baseline_tracker.h"
 #include "../ros/image_conversion.h"
-#include "../ros/imu_input.h"
+#include "../ros/imu_extrinsic.h"
 #include "../ros/mask_file.h"
 #include "../ros/messages.h"
 #include "../ros/node_parameters.h"

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "synthetic_scene.h"
 
 namespace tet_line_tracker {
@@ -9,15 +11,15 @@ namespace {
 
 using synthetic_scene::cameraInfo;
 
-TEST(CalibrationInput, TellsOnceThatNoCameraInfoCame) {
+TEST(CalibrationInput, WarnsOnceThatNoCameraInfoCame) {
   CalibrationInput input;
-  int told = 0;
+  int warnings = 0;
   for (int i = 0; i < 100; ++i) {
     const CalibrationInput::Model model = input.modelFor(320, 240);
     EXPECT_EQ(model.camera, nullptr);
-    told += static_cast<int>(model.complaint.has_value());
+    warnings += static_cast<int>(model.warning.has_value());
   }
-  EXPECT_EQ(told, 1);
+  EXPECT_EQ(warnings, 1);
 }
 
 TEST(CalibrationInput, KeepsTheModelWhileTheCameraInfoStaysTheSame) {
@@ -34,25 +36,25 @@ TEST(CalibrationInput, KeepsTheModelWhileTheCameraInfoStaysTheSame) {
   EXPECT_EQ(input.modelFor(320, 240).camera->calibration().fx, 400.0);
 }
 
-TEST(CalibrationInput, TellsOnceThatTheSizeDoesNotFit) {
+TEST(CalibrationInput, WarnsOnceThatTheSizeDoesNotFit) {
   CalibrationInput input;
   input.update(cameraInfo(ros::Time(1)));
   const CalibrationInput::Model model = input.modelFor(640, 480);
   EXPECT_EQ(model.camera, nullptr);
-  ASSERT_TRUE(model.complaint);
-  EXPECT_NE(model.complaint->find("320x240"), std::string::npos);
-  EXPECT_NE(model.complaint->find("640x480"), std::string::npos);
-  EXPECT_FALSE(input.modelFor(640, 480).complaint);
+  ASSERT_TRUE(model.warning);
+  EXPECT_NE(model.warning->find("320x240"), std::string::npos);
+  EXPECT_NE(model.warning->find("640x480"), std::string::npos);
+  EXPECT_FALSE(input.modelFor(640, 480).warning);
   EXPECT_NE(input.modelFor(320, 240).camera, nullptr);
 }
 
-TEST(CalibrationInput, TellsOnceThatACameraInfoCannotBeUsed) {
+TEST(CalibrationInput, WarnsOnceThatACameraInfoCannotBeUsed) {
   CalibrationInput input;
   sensor_msgs::CameraInfo info = cameraInfo(ros::Time(1));
   info.distortion_model = "fish_scales";
-  const auto complaint = input.update(info);
-  ASSERT_TRUE(complaint);
-  EXPECT_NE(complaint->find("fish_scales"), std::string::npos) << *complaint;
+  const auto warning = input.update(info);
+  ASSERT_TRUE(warning);
+  EXPECT_NE(warning->find("fish_scales"), std::string::npos) << *warning;
   EXPECT_FALSE(input.update(info));
   EXPECT_EQ(input.modelFor(320, 240).camera, nullptr);
 
@@ -70,6 +72,48 @@ TEST(CalibrationInput, TellsOnceThatACameraInfoCannotBeUsed) {
 
   sensor_msgs::CameraInfo uncalibrated;  // as drivers publish it without a calibration file: all zero
   EXPECT_TRUE(input.update(uncalibrated));
+}
+
+TEST(CalibrationInput, TheStateIsThatOfTheLastImage) {
+  CalibrationInput input;
+  EXPECT_EQ(input.state(), "no camera_info so far");
+  input.update(cameraInfo(ros::Time(1)));
+  EXPECT_EQ(input.state(), "plumb_bob, 320x240");
+  input.modelFor(640, 480);
+  EXPECT_EQ(input.state(), "camera_info is for images of 320x240, the images have 640x480");
+  input.modelFor(320, 240);
+  EXPECT_EQ(input.state(), "plumb_bob, 320x240");
+}
+
+TEST(CalibrationInput, WarnsOnceOfACameraInfoOfNans) {
+  CalibrationInput input;
+  sensor_msgs::CameraInfo info = cameraInfo(ros::Time(1));
+  info.K[2] = info.D[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(input.update(info));
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(input.update(info));
+  info.K[2] = 160.0;
+  EXPECT_TRUE(input.update(info));  // another one, with another trouble
+}
+
+TEST(CalibrationInput, AHugeSizeIsPrintedAsItCame) {
+  CalibrationInput input;
+  sensor_msgs::CameraInfo info = cameraInfo(ros::Time(1));
+  info.width = info.height = std::numeric_limits<std::uint32_t>::max();
+  EXPECT_FALSE(input.update(info));
+  const CalibrationInput::Model model = input.modelFor(320, 240);
+  EXPECT_EQ(model.camera, nullptr);
+  ASSERT_TRUE(model.warning);
+  EXPECT_NE(model.warning->find("4294967295x4294967295"), std::string::npos) << *model.warning;
+  EXPECT_EQ(input.state().find('-'), std::string::npos) << input.state();
+}
+
+TEST(CalibrationInput, KOfZerosMeansNotCalibrated) {
+  CalibrationInput input;
+  const auto warning = input.update(sensor_msgs::CameraInfo());
+  ASSERT_TRUE(warning);
+  EXPECT_EQ(warning->rfind("the camera is not calibrated", 0), 0U) << *warning;
+  EXPECT_FALSE(input.modelFor(320, 240).warning);
+  EXPECT_EQ(input.state(), "the camera is not calibrated (K[0] of camera_info is 0)");
 }
 
 }  // namespace

@@ -129,5 +129,18 @@ TEST(ImageConversion, RefusesMessagesWhoseSizesDoNotFitTogether) {
   EXPECT_FALSE(sentenceFor(image).empty());
 }
 
+TEST(ReadGray, AnImageThatCannotBeReadIsAProblemAndNoException) {
+  sensor_msgs::Image image;
+  image.encoding = "mono8";
+  image.width = image.height = image.step = 4;
+  image.data.assign(16, 7);
+  EXPECT_EQ(readGray(image, 1.0).problem, "");
+  EXPECT_EQ(readGray(image, 1.0).gray.at<std::uint8_t>(3, 3), 7);
+  image.data.pop_back();
+  const GrayImage broken = readGray(image, 1.0);
+  EXPECT_TRUE(broken.gray.empty());
+  EXPECT_NE(broken.problem.find("15 bytes of data, needs 16"), std::string::npos) << broken.problem;
+}
+
 }  // namespace
 }  // namespace tet_line_tracker

@@ -1,11 +1,10 @@
 #include "imu_input.h"
 
-#include <geometry_msgs/TransformStamped.h>
 #include <gtest/gtest.h>
-#include <Eigen/Geometry>
 
+#include <atomic>
 #include <chrono>
-#include <stdexcept>
+#include <string>
 #include <thread>
 
 namespace tet_line_tracker {
@@ -76,37 +75,117 @@ TEST(ImuInput, ABagThatBeginsAnewServesTheLastImagesOfTheOldRoundAndTheFirstOfTh
   EXPECT_FALSE(imu.waitFor(ns(1.03), 0.0));
 }
 
-TEST(ImuRotation, FollowsTheChainOfFrames) {
-  // camera <- body -> imu: the camera is turned by a quarter about z, the IMU by a quarter about x.
-  tf2::BufferCore frames;
-  const auto add = [&frames](const char* child, const Eigen::Quaterniond& parent_from_child) {
-    geometry_msgs::TransformStamped transform;
-    transform.header.frame_id = "body";
-    transform.child_frame_id = child;
-    transform.transform.rotation.x = parent_from_child.x();
-    transform.transform.rotation.y = parent_from_child.y();
-    transform.transform.rotation.z = parent_from_child.z();
-    transform.transform.rotation.w = parent_from_child.w();
-    frames.setTransform(transform, "test", true);
-  };
-  const Eigen::Quaterniond body_from_camera(Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitZ()));
-  const Eigen::Quaterniond body_from_imu(Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitX()));
-  add("camera", body_from_camera);
-  EXPECT_FALSE(imuRotation(frames, "imu", "camera"));
-  add("imu", body_from_imu);
-  const auto rotation = imuRotation(frames, "imu", "camera");
-  ASSERT_TRUE(rotation);
-  EXPECT_TRUE(rotation->isApprox((body_from_camera.conjugate() * body_from_imu).toRotationMatrix(), 1e-9));
-  EXPECT_FALSE(imuRotation(frames, "", "camera"));
+/// What a driver sends whose clock or delivery is wrong, and images of a 60 Hz camera that stand for all
+/// others.
+constexpr double kStart = 5000.0;
+constexpr double kPeriod = 1.0 / 60.0;
+
+/// Whether an image would be held up for the IMU: only then it asks whether newer ones crowd.
+bool wouldWait(ImuInput& imu, std::int64_t stamp_ns) {
+  bool asked = false;
+  EXPECT_FALSE(imu.waitFor(stamp_ns, 600.0, [&asked] { return asked = true; }));
+  return asked;
 }
 
-TEST(ImuRotation, AQuaternionIsReadAndAnythingElseRefused) {
-  EXPECT_FALSE(imuRotation(std::string()));
-  const auto rotation = imuRotation(std::string("0 0 0.70710678 0.70710678"));
-  ASSERT_TRUE(rotation);
-  EXPECT_LT((*rotation * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitY()).norm(), 1e-6);
-  for (const char* wrong : {"1 2 3", "0 0 0 1 5", "0 0 0 2", "none", "0 0 0 nan"}) {
-    EXPECT_THROW(imuRotation(std::string(wrong)), std::invalid_argument) << wrong;
+TEST(ImuInput, AnImuThatIsBehindIsNotWaitedForAfterAFewImages) {
+  for (const double behind : {0.5, 1000.0}) {
+    ImuInput imu;
+    for (int i = 0; i < ImuSyncMonitor::kImages; ++i) {
+      EXPECT_FALSE(imu.outOfStep());
+      imu.add(messageAt(kStart - behind + kPeriod * i));
+      EXPECT_FALSE(imu.waitFor(ns(kStart + kPeriod * i), 0.0));
+    }
+    ASSERT_TRUE(imu.outOfStep());
+    const std::string lag = behind > 1.0 ? "its newest message is 1000.0" : "its newest message is 0.5";
+    EXPECT_EQ(imu.outOfStep()->rfind(lag, 0), 0U) << *imu.outOfStep();
+    EXPECT_NE(imu.outOfStep()->find("behind the image"), std::string::npos) << *imu.outOfStep();
+    for (int i = 10; i < 1000; ++i) {
+      imu.add(messageAt(kStart - behind + kPeriod * i));
+      EXPECT_FALSE(wouldWait(imu, ns(kStart + kPeriod * i))) << "image " << i;
+    }
+  }
+}
+
+TEST(ImuInput, AnImuWithoutStampsIsNotWaitedForAfterAFewImages) {
+  ImuInput imu;
+  for (int i = 0; i < ImuSyncMonitor::kImages; ++i) {
+    imu.add(messageAt(0.0));
+    EXPECT_FALSE(imu.waitFor(ns(kStart + kPeriod * i), 0.001));
+  }
+  ASSERT_TRUE(imu.outOfStep());
+  EXPECT_EQ(*imu.outOfStep(), "its messages have no stamp");
+  for (int i = 10; i < 1000; ++i) {
+    imu.add(messageAt(0.0));
+    EXPECT_FALSE(wouldWait(imu, ns(kStart + kPeriod * i))) << "image " << i;
+  }
+}
+
+TEST(ImuInput, AnImuThatIsAheadIsOutOfStep) {
+  ImuInput imu;
+  LineTracker tracker(LineTrackerParameters{});
+  for (int i = 0; i < ImuSyncMonitor::kImages; ++i) {
+    imu.add(messageAt(kStart + 100.0 + kPeriod * i));
+    EXPECT_FALSE(wouldWait(imu, ns(kStart + kPeriod * i))) << "image " << i;
+    imu.feed(ns(kStart + kPeriod * i), tracker);
+  }
+  ASSERT_TRUE(imu.outOfStep());
+  EXPECT_NE(imu.outOfStep()->find("s ahead of the image"), std::string::npos) << *imu.outOfStep();
+}
+
+TEST(ImuInput, AnImuThatIsInStepAgainIsTakenBack) {
+  ImuInput imu;
+  for (int i = 0; i < 20; ++i) {
+    imu.add(messageAt(kStart - 0.5 + kPeriod * i));
+    imu.waitFor(ns(kStart + kPeriod * i), 0.001);
+  }
+  ASSERT_TRUE(imu.outOfStep());
+  for (int i = 20; i < 30; ++i) {
+    imu.add(messageAt(kStart + kPeriod * i));
+    EXPECT_TRUE(imu.waitFor(ns(kStart + kPeriod * i), 0.0));
+  }
+  EXPECT_FALSE(imu.outOfStep());
+  std::thread later([&imu] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    imu.add(messageAt(kStart + kPeriod * 30));
+  });
+  EXPECT_TRUE(imu.waitFor(ns(kStart + kPeriod * 30), 60.0));
+  later.join();
+}
+
+TEST(ImuInput, AnImuThatNeverSentAMessageIsNotOutOfStep) {
+  ImuInput imu;
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(imu.waitFor(ns(kStart + kPeriod * i), 0.001));
+  EXPECT_FALSE(imu.outOfStep());
+}
+
+TEST(ImuInput, AnImageGoesOnWithoutItsMessagesWhenNewerOnesCrowd) {
+  ImuInput imu;
+  imu.add(messageAt(9.99));
+  EXPECT_FALSE(imu.waitFor(ns(10.0), 600.0, [] { return true; }));
+  std::atomic<bool> crowded{false};
+  std::thread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    crowded = true;
+    imu.wake();
+  });
+  EXPECT_FALSE(imu.waitFor(ns(10.0), 600.0, [&crowded] { return crowded.load(); }));
+  later.join();
+}
+
+TEST(ImuInput, OneMessageWithAWrongStampDoesNotEndTheUseOfTheOthers) {
+  for (const double wrong : {0.0, kStart - 1000.0, kStart + 1000.0}) {
+    LineTracker tracker(LineTrackerParameters{});
+    ImuInput imu;
+    imu.add(messageAt(kStart));
+    EXPECT_TRUE(imu.waitFor(ns(kStart), 0.0));
+    imu.feed(ns(kStart), tracker);
+    imu.add(messageAt(wrong));
+    for (int i = 1; i < 10; ++i) {
+      imu.add(messageAt(kStart + kPeriod * i));
+      EXPECT_TRUE(imu.waitFor(ns(kStart + kPeriod * i), 0.0)) << "image " << i << " after " << wrong;
+      imu.feed(ns(kStart + kPeriod * i), tracker);
+    }
+    EXPECT_FALSE(imu.waitFor(ns(kStart + kPeriod * 11), 0.0)) << "after " << wrong;
   }
 }
 

@@ -52,5 +52,16 @@ TEST(NewestQueue, GivesEveryItemOnceOrCountsIt) {
   EXPECT_TRUE(std::is_sorted(taken.begin(), taken.end()));
 }
 
+TEST(NewestQueue, IsFullWhenTheNextItemReplacesOne) {
+  NewestQueue<int> queue(2);
+  queue.push(1);
+  EXPECT_FALSE(queue.isFull());
+  queue.push(2);
+  EXPECT_TRUE(queue.isFull());
+  EXPECT_EQ(queue.replaced(), 0U);
+  queue.pop();
+  EXPECT_FALSE(queue.isFull());
+}
+
 }  // namespace
 }  // namespace tet_line_tracker

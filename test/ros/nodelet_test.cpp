@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Log.h>
+#include <sensor_msgs/Imu.h>
 #include <std_srvs/Trigger.h>
 #include <visualization_msgs/MarkerArray.h>
 
@@ -360,6 +361,41 @@ TEST(Nodelet, CountsTheImagesThatNewerOnesReplace) {
   EXPECT_GT(dropped, 0);
   EXPECT_LE(stream.statistics.back().dropped_queue, static_cast<std::uint32_t>(dropped));
   EXPECT_GT(stream.statistics.back().dropped_queue, 0U);
+}
+
+TEST(Nodelet, LosesNoImageForWantOfAnImuThatIsOutOfStepAndTakesItBack) {
+  Stream stream("imu_behind");
+  ASSERT_TRUE(stream.connected());
+  ros::NodeHandle node;
+  ros::Publisher imu = node.advertise<sensor_msgs::Imu>("/imu_behind/imu", 1000);
+  ASSERT_TRUE(waitFor([&] { return imu.getNumSubscribers() == 1; }));
+  // Faster than images that each wait for imu_wait, which is 2 s here.
+  ros::WallRate rate(30.0);
+  int image = 0;
+  const auto fly = [&](int images, double imu_behind_s) {
+    for (const int end = image + images; image < end; ++image) {
+      const ros::Time stamp = kStart + kPeriod * image;
+      sensor_msgs::Imu message;
+      message.header.frame_id = "imu";
+      message.header.stamp = stamp - ros::Duration(imu_behind_s);
+      imu.publish(message);
+      stream.send(scene::monoMessage(image, stamp));
+      ros::spinOnce();
+      rate.sleep();
+    }
+  };
+  fly(100, 900.0);
+  ASSERT_TRUE(stream.receives(100)) << stream.lines.size() << " images were tracked";
+  EXPECT_TRUE(isLogged({"/imu_behind/imu is out of step", "s behind the image"}));
+  EXPECT_TRUE(waitFor([&] {
+    return stream.diagnostics["imu"].rfind("/imu_behind/imu, out of step: its newest", 0) == 0;
+  })) << stream.diagnostics["imu"];
+  fly(40, 0.0);
+  ASSERT_TRUE(stream.receives(140)) << stream.lines.size() << " images were tracked";
+  EXPECT_TRUE(isLogged({"/imu_behind/imu is in step again"}));
+  EXPECT_TRUE(waitFor([&] { return stream.diagnostics["imu"] == "/imu_behind/imu"; }))
+      << stream.diagnostics["imu"];
+  EXPECT_EQ(timesLogged({"/imu_behind/imu is out of step"}), 1);
 }
 
 TEST(Nodelet, TellsWhichTopicsHaveImagesWhenItsOwnHasNone) {

@@ -1,0 +1,65 @@
+#include "line_publisher.h"
+
+#include <sensor_msgs/image_encodings.h>
+#include <visualization_msgs/MarkerArray.h>
+#include <boost/make_shared.hpp>
+
+#include "messages.h"
+
+namespace tet_line_tracker {
+namespace {
+
+/// Lines matter to estimators, so a slow subscriber gets this many messages of slack.
+constexpr std::uint32_t kLinesQueue = 100;
+constexpr std::uint32_t kDisplayQueue = 2;
+
+sensor_msgs::ImageConstPtr toDebugImage(const LineFrame& frame, const std::string& frame_id,
+                                        const cv::Mat& gray, TrackPainter& painter) {
+  const auto image = boost::make_shared<sensor_msgs::Image>();
+  image->header.stamp.fromNSec(static_cast<std::uint64_t>(frame.stamp_ns));
+  image->header.frame_id = frame_id;
+  image->encoding = sensor_msgs::image_encodings::BGR8;
+  image->width = static_cast<std::uint32_t>(gray.cols);
+  image->height = static_cast<std::uint32_t>(gray.rows);
+  image->step = 3 * image->width;
+  image->data.resize(static_cast<std::size_t>(image->step) * image->height);
+  cv::Mat bgr(gray.rows, gray.cols, CV_8UC3, image->data.data(), image->step);
+  painter.paint(gray, frame, bgr);
+  return image;
+}
+
+}  // namespace
+
+LinePublisher::LinePublisher(ros::NodeHandle& node, const NodeParameters& parameters)
+    : throttle_(parameters.publish_rate),
+      marker_builder_(parameters.marker_ids),
+      lines_(node.advertise<LineArray>("lines", kLinesQueue)),
+      markers_(node.advertise<visualization_msgs::MarkerArray>("markers", kDisplayQueue)),
+      statistics_(node.advertise<TrackingStatistics>("statistics", kLinesQueue)),
+      debug_image_(image_transport::ImageTransport(node).advertise("debug_image", kDisplayQueue)) {}
+
+bool LinePublisher::publish(const LineFrame& frame, const std::string& frame_id, const cv::Mat& gray,
+                            std::uint64_t replaced) {
+  if (epoch_ != frame.epoch) {
+    epoch_ = frame.epoch;
+    replaced_before_epoch_ = replaced;
+    throttle_.reset();
+  }
+  if (!throttle_.pass(frame.stamp_ns)) return false;
+  lines_.publish(boost::make_shared<const LineArray>(toLineArray(frame, frame_id, lines_sequence_++)));
+  if (statistics_.getNumSubscribers() > 0) {
+    const auto replaced_in_epoch = static_cast<std::uint32_t>(replaced - replaced_before_epoch_);
+    statistics_.publish(boost::make_shared<const TrackingStatistics>(
+        toTrackingStatistics(frame, frame_id, statistics_sequence_++, replaced_in_epoch)));
+  }
+  if (markers_.getNumSubscribers() > 0) {
+    markers_.publish(
+        boost::make_shared<const visualization_msgs::MarkerArray>(marker_builder_.build(frame, frame_id)));
+  }
+  if (debug_image_.getNumSubscribers() > 0) {
+    debug_image_.publish(toDebugImage(frame, frame_id, gray, painter_));
+  }
+  return true;
+}
+
+}  // namespace tet_line_tracker

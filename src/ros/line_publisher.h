@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <image_transport/image_transport.h>
+#include <ros/ros.h>
+#include <opencv2/core.hpp>
+
+#include "markers.h"
+#include "node_parameters.h"
+#include "publish_throttle.h"
+#include "tet_line_tracker/display/track_painter.h"
+#include "tet_line_tracker/tracking/line_frame.h"
+
+namespace tet_line_tracker {
+
+/// Publishes the lines of an image, and while somebody listens the picture, the markers and the statistics of
+/// them. publish() is for one thread; the rest may be called from any.
+class LinePublisher {
+ public:
+  /// Advertises below `node`.
+  LinePublisher(ros::NodeHandle& node, const NodeParameters& parameters);
+
+  /// `gray`: the image of `frame`; `replaced`: images that gave way to newer ones since the node began. False
+  /// when publish_rate leaves this image out.
+  bool publish(const LineFrame& frame, const std::string& frame_id, const cv::Mat& gray,
+               std::uint64_t replaced);
+
+  std::string debugImageTopic() const { return debug_image_.getTopic(); }
+
+ private:
+  PublishThrottle throttle_;
+  MarkerBuilder marker_builder_;
+  TrackPainter painter_;
+  std::optional<std::uint32_t> epoch_;
+  std::uint64_t replaced_before_epoch_{0};
+  std::uint32_t lines_sequence_{0};
+  std::uint32_t statistics_sequence_{0};
+
+  ros::Publisher lines_;
+  ros::Publisher markers_;
+  ros::Publisher statistics_;
+  image_transport::Publisher debug_image_;
+};
+
+}  // namespace tet_line_tracker
