@@ -165,6 +165,27 @@ TEST(MotionPrior, AWrongImuIsRefusedAndNeverWorseThanNone) {
   }
 }
 
+TEST(MotionPrior, TheGyroscopeLeadsWhereTheImagesAloneGoAstray) {
+  for (const Eigen::Vector3d& degrees :
+       {Eigen::Vector3d(0.0, 12.0, 0.0), Eigen::Vector3d(0.0, 8.0, 0.0), Eigen::Vector3d(7.0, 7.0, 0.0)}) {
+    for (const char* name : {"image", "imu", "auto"}) {
+      MotionPrior both(prior(name));
+      both.setCamera(camera());
+      both.setImuRotation(kCameraFromImu);
+      addGyro(both, -5, 55, degrees);
+      both.predict(view(turned({0, 0, 0})), 0);
+      const MotionPrediction prediction = both.predict(view(turned(degrees)), kPeriod);
+      const double error = degreesBetween(prediction.rotation, turned(degrees));
+      if (std::string(name) == "image") {
+        EXPECT_GT(error, 2.0) << degrees.transpose();
+      } else {
+        EXPECT_STREQ(prediction.sourceName(), "imu");
+        EXPECT_LT(error, 1.0) << name << ", " << degrees.transpose();
+      }
+    }
+  }
+}
+
 TEST(MotionPrior, LearnsABiasOfAFifthOfARadianPerSecondAtAnyRate) {
   const Eigen::Vector3d bias(0.12, -0.16, 0.02);  // in the camera [rad/s]
   for (const std::int64_t period_ms : {50, 5}) {
