@@ -217,7 +217,7 @@ TEST(MotionPrior, AfterAWhileABiasedGyroscopeAgreesWithTheImages) {
   MotionPrior imu(prior("imu"));
   imu.setCamera(camera());
   imu.setImuRotation(kCameraFromImu);
-  constexpr int kImages = 400;  // 20 s
+  constexpr int kImages = 160;  // 8 s
   for (int k = 0; k < kImages; ++k) {
     for (int ms = k == 0 ? -5 : 5; ms <= 50; ms += 5) {
       const double images = static_cast<double>(k - 1) + ms / 50.0;
