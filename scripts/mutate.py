@@ -115,7 +115,9 @@ def programs_of(file):
     room = file.split('/')[2]
     tests = rooms.core_tests(read(rooms.CORE))
     names = list(tests)
-    return [test + '_test' for name in names[names.index(room):] for test in tests[name]]
+    own = os.path.splitext(os.path.basename(file))[0]
+    return [test + '_test' for name in names[names.index(room):]
+            for test in sorted(tests[name], key=lambda test: test != own)]
 
 
 def killers(folder, mutation):

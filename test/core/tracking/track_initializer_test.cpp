@@ -18,9 +18,8 @@ class TrackInitializerTest : public testing::Test {
  protected:
   TrackInitializerTest() { area_.setImageSize(kSize); }
 
-  void addTracks(const cv::Mat& image, bool fit_edges = true) {
-    TrackInitializer initializer(parameters_, LineRefiner(LineRefinerParameters{}),
-                                 TrackInitializer::Options{fit_edges, 2.0F});
+  void addTracks(const cv::Mat& image) {
+    TrackInitializer initializer(parameters_, LineRefiner(LineRefinerParameters{}), options_);
     initializer.addTracks(image, area_, tracks_, statistics_);
   }
 
@@ -31,6 +30,7 @@ class TrackInitializerTest : public testing::Test {
   }
 
   DetectionParameters parameters_;
+  TrackInitializer::Options options_;
   VisibleArea area_{2.0};
   TrackTable tracks_;
   FrameStatistics statistics_;
@@ -68,9 +68,16 @@ TEST_F(TrackInitializerTest, SpreadsNewTracksOverTheImage) {
     rectangles.push_back({20.0F, y, 150.0F, y + 15.0F, 200.0F});
   }
   parameters_.max_lines = 24;
-  addTracks(rectanglesImage(kSize, rectangles));
+  const cv::Mat image = rectanglesImage(kSize, rectangles);
+  addTracks(image);
   EXPECT_EQ(tracks_.size(), 24U);
   EXPECT_GE(countRightOf(400.0F), 6U);
+  // As in the paper, the longest ones alone.
+  options_.spread = false;
+  tracks_.clear();
+  addTracks(image);
+  EXPECT_EQ(tracks_.size(), 24U);
+  EXPECT_EQ(countRightOf(400.0F), 0U);
 }
 
 TEST_F(TrackInitializerTest, StartsNewTracksFarFromThoseThereAre) {

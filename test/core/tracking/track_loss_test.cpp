@@ -34,6 +34,7 @@ LineTrackerParameters parametersOf(const char* method) {
   parameters.method = method;
   parameters.motion.prior = "none";
   parameters.flow.robust_patches = false;  // ends follow their corners far
+  parameters.detection.detector = "edge";
   parameters.detection.min_lines = 1;
   parameters.detection.redetect_ratio = 0.0;
   return parameters;
