@@ -5,8 +5,8 @@
     mutate.py FOLDER [NUMBER ...]
 
 FOLDER gets a copy of the source folder and a build of it. The core is a shared library there, so that a mutant costs
-one object file, one link and the tests. Those of the mutated room run first, then those of the rooms above it, up to
-the first program that fails.
+one object file, one link and the tests. Those of the mutated room run first; where none of them fails, those of the
+rooms above it, up to the first room in which one does.
 """
 import collections
 import os
@@ -19,6 +19,7 @@ import rooms
 
 TABLE = 'scripts/mutations.txt'
 TIMEOUT_S = 300  # of a test program; some mutants never end
+MAX_SHOWN = 4  # tests that notice a mutation
 
 Mutation = collections.namedtuple('Mutation', 'number file purpose old new')
 
@@ -111,13 +112,12 @@ def failed_tests(folder, program):
 
 
 def programs_of(file):
-    """Test programs that a change of a file of the core could make fail, the nearest first."""
-    room = file.split('/')[2]
+    """Test programs that a change of a file of the core could make fail, by room, the nearest first."""
     tests = rooms.core_tests(read(rooms.CORE))
     names = list(tests)
     own = os.path.splitext(os.path.basename(file))[0]
-    return [test + '_test' for name in names[names.index(room):]
-            for test in sorted(tests[name], key=lambda test: test != own)]
+    return [[test + '_test' for test in sorted(tests[name], key=lambda test: test != own)]
+            for name in names[names.index(file.split('/')[2]):]]
 
 
 def killers(folder, mutation):
@@ -127,13 +127,20 @@ def killers(folder, mutation):
     write(path, original.replace(mutation.old, mutation.new))
     try:
         build(folder, 'tet_line_tracker_core')
-        for program in programs_of(mutation.file):
-            failed = failed_tests(folder, program)
+        for programs in programs_of(mutation.file):
+            failed = [test for program in programs for test in failed_tests(folder, program)]
             if failed:
                 return failed
         return []
     finally:
         write(path, original)
+
+
+def outcome_of(noticed):
+    if not noticed:
+        return 'SURVIVED'
+    more = ' and {} more'.format(len(noticed) - MAX_SHOWN) if len(noticed) > MAX_SHOWN else ''
+    return 'killed by ' + ', '.join(noticed[:MAX_SHOWN]) + more
 
 
 def show(mutation, outcome=''):
@@ -156,7 +163,8 @@ def main():
 
     copy_source(os.path.join(folder, 'source'))
     configure(folder)
-    programs = list(dict.fromkeys(program for mutation in chosen for program in programs_of(mutation.file)))
+    programs = list(dict.fromkeys(program for mutation in chosen for room in programs_of(mutation.file)
+                                  for program in room))
     build(folder, 'tet_line_tracker_core', *programs)
     for program in programs:
         failed = failed_tests(folder, program)
@@ -166,7 +174,7 @@ def main():
     survivors = 0
     for mutation in chosen:
         noticed = killers(folder, mutation)
-        show(mutation, 'killed by ' + ', '.join(noticed) if noticed else 'SURVIVED')
+        show(mutation, outcome_of(noticed))
         survivors += 0 if noticed else 1
     print('{} mutations, {} killed, {} survived'.format(len(chosen), len(chosen) - survivors, survivors))
     return 1 if survivors else 0

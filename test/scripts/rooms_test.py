@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of scripts/rooms.py.   rooms_test.py [RESULT.xml]"""
+"""Tests of scripts/rooms.py, by which lint.py judges the project.   rooms_test.py [RESULT.xml]"""
 import os
 import sys
 import unittest
@@ -34,17 +34,6 @@ class Rooms(unittest.TestCase):
         found = rooms.complaints(self.files)
         self.assertEqual(len(found), 1, found)
         return found[0]
-
-    def test_the_project_keeps_its_rules(self):
-        names = [os.path.relpath(os.path.join(folder, name), ROOT)
-                 for top in ('src', 'include', 'docs') for folder, _, found in os.walk(os.path.join(ROOT, top))
-                 for name in found] + ['CMakeLists.txt']
-        before = os.getcwd()
-        os.chdir(ROOT)
-        try:
-            self.assertEqual(rooms.complaints(rooms.read_sources(names)), [])
-        finally:
-            os.chdir(before)
 
     def test_a_project_that_keeps_the_rules_has_no_complaints(self):
         self.assertEqual(rooms.complaints(self.files), [])
