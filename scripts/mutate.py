@@ -15,6 +15,7 @@ import shutil
 import subprocess
 import sys
 
+import lint
 import rooms
 
 TABLE = 'scripts/mutations.txt'
@@ -58,10 +59,8 @@ def write(path, content):
 
 
 def copy_source(source):
-    """Copies what git would deliver; files that did not change keep their time, so that they are not built again."""
-    listed = subprocess.run(['git', 'ls-files', '--cached', '--others', '--exclude-standard'], check=True,
-                            stdout=subprocess.PIPE).stdout.decode().splitlines()
-    for name in filter(os.path.isfile, listed):
+    """Copies the project; files that did not change keep their time, so that they are not built again."""
+    for name in lint.project_files():
         target = os.path.join(source, name)
         os.makedirs(os.path.dirname(target), exist_ok=True)
         with open(name, 'rb') as file:
