@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks what a compiler does not: format, clang-tidy, catkin_lint, paths of one machine, scripts' syntax.
+"""Checks what a compiler does not: format, clang-tidy, catkin_lint, rooms, paths of one machine, scripts' syntax.
 
 Called by test.sh. Writes test_results/lint.xml into the build folder; exits 1 when a check failed. A check whose
 tool is not installed is skipped.
@@ -13,6 +13,8 @@ import shutil
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
+
+import rooms
 
 # clang-format's style differs between its versions; this one is Debian 12's.
 CLANG_FORMAT_VERSION = 14
@@ -115,6 +117,12 @@ def check_paths(files):
         raise RuntimeError('\n'.join(found))
 
 
+def check_rooms(files):
+    found = rooms.complaints(rooms.read_sources(files))
+    if found:
+        raise RuntimeError('\n'.join(found))
+
+
 def check_scripts(files):
     for name in files:
         if name.endswith('.sh') or name == '.ci/run':
@@ -133,7 +141,7 @@ def main():
     build = sys.argv[1]
     files = project_files()
     checks = [('clang_format', check_format), ('catkin_lint', check_catkin), ('machine_paths', check_paths),
-              ('script_syntax', check_scripts), ('xml_syntax', check_xml),
+              ('rooms', check_rooms), ('script_syntax', check_scripts), ('xml_syntax', check_xml),
               ('clang_tidy', lambda names: check_tidy(names, build))]
     suite = ElementTree.Element('testsuite', name='lint')
     status = 0

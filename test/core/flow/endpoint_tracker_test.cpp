@@ -108,6 +108,23 @@ TEST(TwoEndpointFlow, BothEndpointsMustMeetTheResidual) {
   EXPECT_NE(tracker->track(patches, second, kLine).status, EndpointFlow::Status::kTracked);
 }
 
+TEST(TwoEndpointFlow, TheResidualIsThatOfTheWorseEndpoint) {
+  const cv::Mat image = smoothImage(kWidth, kHeight, {0.0F, 0.0F});
+  for (const Eigen::Vector2f& disturbed : {kLine.start, kLine.end}) {
+    cv::Mat second = image.clone();
+    for (int y = -8; y <= 8; ++y) {
+      for (int x = -8; x <= 8; ++x) {
+        std::uint8_t& gray =
+            second.at<std::uint8_t>(static_cast<int>(disturbed.y()) + y, static_cast<int>(disturbed.x()) + x);
+        gray = static_cast<std::uint8_t>(gray + (((x + 8) / 4 + (y + 8) / 4) % 2 == 0 ? 3 : -3));
+      }
+    }
+    const EndpointFlow flow = followInto(*makeTwoEndpointFlow({}), image, second);
+    EXPECT_EQ(flow.status, EndpointFlow::Status::kTracked);
+    EXPECT_GT(flow.residual, 0.007F) << "of 3 / 255, less what interpolation takes away";
+  }
+}
+
 TEST(TwoEndpointFlow, TheIterationsEndAtTheirLimit) {
   EndpointTrackerParameters once;
   once.pyramid_levels = 1;
@@ -233,6 +250,23 @@ TEST(JointFlow, TakesNoMoreStepsThanMaxIterations) {
   tracker->extractTemplate(first, line, patches);
   // The residual is that of the place before the only step: 2 px on a ramp of 3 gray per px.
   EXPECT_NEAR(tracker->track(patches, second, line).residual, 6.0F / 255.0F, 1e-4F);
+}
+
+TEST(JointFlow, AMovementOfMoreThanAWindowOnALevelIsNoSolution) {
+  EndpointTrackerParameters parameters;
+  parameters.pyramid_levels = 1;
+  parameters.finest_level = 0;
+  parameters.gain_and_offset = false;
+  const auto tracker = makeJointFlow(parameters);
+  const LineSegment line{{40.0F, 60.0F}, {40.0F, 160.0F}};
+  ImagePyramid first, second;
+  first.build(ramp(0.0F), 1);
+  LineTemplate patches;
+  tracker->extractTemplate(first, line, patches);
+  second.build(ramp(5.0F), 1);
+  EXPECT_EQ(tracker->track(patches, second, line).status, EndpointFlow::Status::kTracked);
+  second.build(ramp(9.0F), 1);
+  EXPECT_EQ(tracker->track(patches, second, line).status, EndpointFlow::Status::kNoSolution);
 }
 
 TEST(JointFlow, ALineThatMatchesPoorlyIsStillPlacedOnTheFinestLevel) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -250,6 +251,35 @@ TEST(MotionPrior, NeitherNoneNorTheFirstImageAfterAResetPredictsMotion) {
   images.predict(view(turned({0, 0, 0})), 0);
   images.reset();
   EXPECT_EQ(images.predict(view(turned({0, 3, 0})), kPeriod).angle(), 0.0);
+}
+
+TEST(MotionPrior, AfterAWhileABiasedGyroscopeAgreesWithTheImages) {
+  // A sway of 4 degrees to both sides, eight images long; known at every moment.
+  const Eigen::Vector3d sway(2.4, -3.2, 0.0);  // [degrees]
+  const auto swayAt = [&](double images) { return Eigen::Vector3d(std::sin(M_PI / 4.0 * images) * sway); };
+  const Eigen::Vector3d bias = kCameraFromImu.transpose() * Eigen::Vector3d(0.05, 0.03, -0.05);  // [rad/s]
+  const double period_s = 1e-9 * static_cast<double>(kPeriod);
+  std::vector<ImagePyramid> views;
+  for (int k = 0; k < 8; ++k) views.push_back(view(turned(swayAt(k))));
+
+  MotionPrior imu(prior("imu"));
+  imu.setCamera(camera());
+  imu.setImuRotation(kCameraFromImu);
+  constexpr int kImages = 160;  // 8 s
+  for (int k = 0; k < kImages; ++k) {
+    for (int ms = k == 0 ? -5 : 5; ms <= 50; ms += 5) {
+      const double images = static_cast<double>(k - 1) + ms / 50.0;
+      const double rate = M_PI / 4.0 * std::cos(M_PI / 4.0 * images) / period_s;
+      const Eigen::Vector3d velocity = -rate * kDegree * (kCameraFromImu.transpose() * sway);
+      imu.addAngularVelocity((k - 1) * kPeriod + ms * kMs, velocity + bias);
+    }
+    const MotionPrediction prediction = imu.predict(views[static_cast<std::size_t>(k % 8)], k * kPeriod);
+    if (k < kImages - 8) continue;
+    const Eigen::Matrix3d truth = turned(swayAt(k)) * turned(swayAt(k - 1)).transpose();
+    EXPECT_STREQ(prediction.sourceName(), "imu") << k;
+    // The bias turns by 0.22 degrees from image to image.
+    EXPECT_LT(degreesBetween(prediction.rotation, truth), 0.07) << k;
+  }
 }
 
 }  // namespace

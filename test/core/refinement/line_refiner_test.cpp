@@ -122,6 +122,17 @@ TEST(LineRefiner, AnEdgeOfTheOtherPolarityIsNoSupport) {
   EXPECT_LT(refiner.fit(image, truth, -contrast).support, 0.3F);
 }
 
+TEST(LineRefiner, TheContrastOfAnEdgeIsItsSlopeAndHasItsSign) {
+  const LineRefiner refiner(LineRefinerParameters{});
+  for (const float contrast : {60.0F, -60.0F}) {
+    const cv::Mat image = edgeImage(0.0F, contrast, 0.0F, kMiddle);
+    const EdgeFit fit = refiner.fit(image, along(0.0F, 80.0F, kMiddle), contrast / 3.0F);
+    EXPECT_GT(fit.support, 0.95F);
+    // The slope in the middle of the erf; what is measured over two pixels is less.
+    EXPECT_NEAR(fit.contrast / (contrast / (1.1F * std::sqrt(static_cast<float>(M_PI)))), 0.85F, 0.15F);
+  }
+}
+
 TEST(LineRefiner, AStrongerEdgeOfTheOtherPolarityDoesNotTurnTheContrastOfALine) {
   const LineRefiner refiner(LineRefinerParameters{});
   const LineSegment weak = along(0.4F, 80.0F, kMiddle);

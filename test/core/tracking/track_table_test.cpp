@@ -1,0 +1,66 @@
+#include "tracking/track_table.h"
+
+#include <gtest/gtest.h>
+
+namespace tet_line_tracker {
+namespace {
+
+LineSegment number(int i) {
+  const float y = static_cast<float>(i);
+  return {{10.0F, y}, {90.0F, y}};
+}
+
+TEST(TrackTable, NewTracksHaveIdsNeverUsedBeforeAndBeginAtAgeOneWithoutParallax) {
+  TrackTable tracks;
+  FrameStatistics statistics;
+  for (int i = 0; i < 3; ++i) {
+    tracks.add(number(i), 5.0F);
+    TrackState& state = tracks.state(tracks.size() - 1);
+    EXPECT_FALSE(state.lost());
+    EXPECT_TRUE(state.start_parallax.isZero() && state.end_parallax.isZero());
+    EXPECT_EQ(state.contrast, 5.0F);
+    EXPECT_EQ(tracks.line(tracks.size() - 1).age, 1U);
+    EXPECT_EQ(tracks.line(tracks.size() - 1).id, static_cast<std::uint64_t>(i));
+    // What the next track finds in the buffers of this one must not matter.
+    state.start_parallax = state.end_parallax = {3.0F, 4.0F};
+    state.loss = LossReason::kFlow;
+    tracks.removeLost(statistics);
+  }
+  tracks.add(number(3), 5.0F);
+  tracks.clear();
+  tracks.add(number(4), 5.0F);
+  EXPECT_EQ(tracks.line(0).id, 4U);
+}
+
+TEST(TrackTable, RemovesTheLostTracksAndCountsThemByReason) {
+  TrackTable tracks;
+  for (int i = 0; i < 6; ++i) tracks.add(number(i), static_cast<float>(i));
+  tracks.state(0).loss = LossReason::kAngle;
+  tracks.state(2).loss = LossReason::kMask;
+  tracks.state(3).loss = LossReason::kAngle;
+  FrameStatistics statistics;
+  tracks.removeLost(statistics);
+  EXPECT_EQ(statistics.lostFor(LossReason::kAngle), 2U);
+  EXPECT_EQ(statistics.lostFor(LossReason::kMask), 1U);
+  EXPECT_EQ(statistics.lostFor(LossReason::kFlow), 0U);
+  EXPECT_EQ(statistics.tracks_kept, 3U);
+}
+
+TEST(TrackTable, TheOtherTracksKeepTheirOrderAndTheirState) {
+  TrackTable tracks;
+  for (int i = 0; i < 6; ++i) tracks.add(number(i), static_cast<float>(i));
+  for (const std::size_t i : {0U, 2U, 3U}) tracks.state(i).loss = LossReason::kAngle;
+  FrameStatistics statistics;
+  tracks.removeLost(statistics);
+  ASSERT_EQ(tracks.size(), 3U);
+  const int kept[] = {1, 4, 5};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(tracks.line(i).id, static_cast<std::uint64_t>(kept[i]));
+    EXPECT_EQ(tracks.line(i).segment.start, number(kept[i]).start);
+    EXPECT_EQ(tracks.state(i).contrast, static_cast<float>(kept[i]));
+    EXPECT_FALSE(tracks.state(i).lost());
+  }
+}
+
+}  // namespace
+}  // namespace tet_line_tracker
