@@ -1,9 +1,9 @@
 # Functions for the tables of targets in src/*/CMakeLists.txt.
 
-# Links a target to the core, to ROS, and to what else is named.
+# Links a target to the core, to ROS, to all of OpenCV, and to what else is named.
 function(tet_link_ros target)
   target_include_directories(${target} SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
-  target_link_libraries(${target} tet_line_tracker_core ${catkin_LIBRARIES} ${ARGN})
+  target_link_libraries(${target} tet_line_tracker_core ${catkin_LIBRARIES} ${OpenCV_LIBRARIES} ${ARGN})
   add_dependencies(${target} ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 endfunction()
 

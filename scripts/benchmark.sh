@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Compares the speed of this package with others on the same images, on one thread, and prints the tables of docs/benchmarks.md.
+# Compares the speed of this package with others on the same images, on one thread, and prints the tables of docs/benchmarks/speed.md.
 #
 #   scripts/benchmark.sh [--stages] [FOLDER]
 #

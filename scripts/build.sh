@@ -18,8 +18,8 @@ for argument in "$@"; do
   esac
 done
 
-requirePackages "${packages_build[@]}"
-if $tests; then requirePackages "${packages_run[@]}" "${packages_test[@]}"; fi
+requirePackages "${packages_build[@]}" "${packages_run[@]}"
+if $tests; then requirePackages "${packages_test[@]}"; fi
 
 if [ ! -e "$build/CMakeCache.txt" ]; then
   options=(-G Ninja -DCMAKE_BUILD_TYPE=Release -DCATKIN_ENABLE_TESTING=OFF -DCMAKE_EXPORT_COMPILE_COMMANDS=ON "${options[@]}")

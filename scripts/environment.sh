@@ -16,6 +16,17 @@ fail() {
   exit 1
 }
 
+# For scripts that take no options: --help prints the comment at the head of the script and ends it.
+answerHelp() {
+  local argument
+  for argument in "$@"; do
+    case $argument in
+      --help | -h) sed -n '2,/^[^#]/s/^# \{0,1\}//p' "scripts/$(basename "$0")" && exit ;;
+      -*) fail "unknown option $argument; see --help" ;;
+    esac
+  done
+}
+
 # The setup files of ROS read unset variables.
 sourceSetup() {
   set +u

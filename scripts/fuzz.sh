@@ -6,6 +6,7 @@
 set -euo pipefail
 . "$(dirname "$0")/environment.sh"
 
+answerHelp "$@"
 readers=(calibration_file camera_info image_message text_table)
 buildSanitized "${readers[@]/#/fuzz_}"
 cd "$sanitized"

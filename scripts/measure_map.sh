@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Maps simulated flights with true poses and judges the maps by the true edges: the table "What the tracks are worth" of
+# Maps simulated flights with true poses and judges the maps by the true edges: the table "How good a map the tracks give" of
 # docs/vio.md.
 #
 #   scripts/measure_map.sh RESULTS [SECONDS]

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Judges the trackers on simulated flights of every regime: the tables "Every regime" and "Part by part" of docs/benchmarks.md.
+# Judges the trackers on simulated flights of every regime: the tables of docs/benchmarks/tracking.md.
 #
 #   scripts/measure_tracking.sh RESULTS [SEEDS [SECONDS [REGIMES]]]
 #

@@ -1,4 +1,8 @@
-# Debian packages by purpose: build, run (the demo without a display), rviz, test, lint, benchmark. Sourced by environment.sh.
+# Debian packages by purpose: build, run (what README and the demo without a display start), rviz, test, lint, benchmark, core (the
+# core alone), fresh_root (test_core.sh --fresh-root). Sourced by environment.sh.
+
+packages_core=(cmake g++ libeigen3-dev libgtest-dev libopencv-dev libyaml-cpp-dev ninja-build)
+packages_fresh_root=(debootstrap)
 
 if [ -e /opt/ros/noetic/setup.bash ]; then
   # Ubuntu 20.04 with ROS Noetic from packages.ros.org.
@@ -12,6 +16,7 @@ if [ -e /opt/ros/noetic/setup.bash ]; then
   packages_test=(libgtest-dev ros-noetic-roslaunch ros-noetic-rostest ros-noetic-rosunit ros-noetic-rviz)
   packages_lint=(clang-format clang-tidy python3-catkin-lint)
   packages_benchmark=(libbenchmark-dev)
+  packages_plot=(python3-matplotlib)
 else
   # Debian 12 packages ROS 1 itself.
   packages_build=(build-essential catkin cmake libboost-program-options-dev libcv-bridge-dev libdiagnostic-updater-dev
@@ -25,4 +30,5 @@ else
   packages_test=(libgtest-dev librostest-dev python3-rostest rviz)
   packages_lint=(catkin-lint clang-format clang-tidy)
   packages_benchmark=(libbenchmark-dev)
+  packages_plot=(python3-matplotlib)
 fi

@@ -7,6 +7,7 @@
 set -euo pipefail
 . "$(dirname "$0")/environment.sh"
 
+answerHelp "$@"
 tests=("$@")
 if [ ${#tests[@]} -eq 0 ]; then mapfile -t tests < <(basename -s .cpp test/core/*/*.cpp); fi
 buildSanitized "${tests[@]}"

@@ -5,6 +5,7 @@
 set -euo pipefail
 . "$(dirname "$0")/environment.sh"
 
+answerHelp "$@"
 requirePackages "${packages_build[@]}" "${packages_run[@]}"
 requireLocalhost
 scripts/build.sh

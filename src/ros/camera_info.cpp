@@ -1,12 +1,23 @@
 #include "camera_info.h"
 
+#include <algorithm>
+#include <limits>
+
 namespace tet_line_tracker {
+namespace {
+
+/// A size beyond int stays as far beyond any image.
+int toInt(std::uint32_t size) {
+  return static_cast<int>(std::min<std::uint32_t>(size, std::numeric_limits<int>::max()));
+}
+
+}  // namespace
 
 CameraCalibration fromCameraInfo(const sensor_msgs::CameraInfo& info) {
   CameraCalibration calibration;
   calibration.model = info.distortion_model;
-  calibration.width = static_cast<int>(info.width);
-  calibration.height = static_cast<int>(info.height);
+  calibration.width = toInt(info.width);
+  calibration.height = toInt(info.height);
   calibration.fx = info.K[0];
   calibration.fy = info.K[4];
   calibration.cx = info.K[2];

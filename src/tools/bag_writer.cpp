@@ -1,37 +1,62 @@
 #include "bag_writer.h"
 
-#include <unistd.h>
-
-#include <cstdio>
-#include <stdexcept>
+#include <vector>
 
 namespace tet_line_tracker {
+namespace {
 
-BagWriter::BagWriter(const std::string& path)
-    : path_(path), temporary_path_(path + ".part" + std::to_string(getpid())) {
+/// The destructor of a rosbag::Bag writes its index and ends the program when it cannot (std::terminate). A
+/// bag that failed is therefore kept to the end of the program.
+void abandon(std::unique_ptr<rosbag::Bag> bag) {
+  static auto& abandoned = *new std::vector<rosbag::Bag*>();
+  abandoned.push_back(bag.release());
+}
+
+}  // namespace
+
+BagWriter::BagWriter(const std::string& path) : output_(path), bag_(std::make_unique<rosbag::Bag>()) {
+  errno = 0;
   try {
-    bag_.open(temporary_path_, rosbag::bagmode::Write);
+    bag_->open(output_.temporaryPath(), rosbag::bagmode::Write);
   } catch (const std::exception& error) {
-    throw std::runtime_error("cannot write " + path + ": " + error.what());
+    const int reason = errno;
+    abandon(std::move(bag_));
+    errno = reason;
+    output_.fail(error.what());
   }
 }
 
 BagWriter::~BagWriter() {
-  if (closed_) return;
+  if (!bag_) return;
   try {
-    bag_.close();
+    bag_->close();
   } catch (const std::exception&) {
-    // The file goes away in any case.
+    abandon(std::move(bag_));
   }
-  std::remove(temporary_path_.c_str());
+}
+
+void BagWriter::copy(const rosbag::MessageInstance& message) {
+  errno = 0;
+  try {
+    bag_->write(message.getTopic(), message.getTime(), message);
+  } catch (const std::exception& error) {
+    if (errno == 0) throw;
+    output_.fail(error.what());
+  }
 }
 
 void BagWriter::close() {
-  bag_.close();
-  if (std::rename(temporary_path_.c_str(), path_.c_str()) != 0) {
-    throw std::runtime_error("cannot move the finished bag to " + path_);
+  errno = 0;
+  try {
+    bag_->close();
+  } catch (const std::exception& error) {
+    const int reason = errno;
+    abandon(std::move(bag_));
+    errno = reason;
+    output_.fail(error.what());
   }
-  closed_ = true;
+  bag_.reset();
+  output_.moveIntoPlace();
 }
 
 }  // namespace tet_line_tracker

@@ -1,9 +1,15 @@
 #pragma once
 
+#include <cerrno>
+#include <exception>
+#include <memory>
 #include <string>
 
 #include <ros/time.h>
 #include <rosbag/bag.h>
+#include <rosbag/message_instance.h>
+
+#include "output_file.h"
 
 namespace tet_line_tracker {
 
@@ -17,19 +23,27 @@ class BagWriter {
   BagWriter(const BagWriter&) = delete;
   BagWriter& operator=(const BagWriter&) = delete;
 
+  /// Throws std::runtime_error with the reason when the message cannot be written (disk full).
   template <class Message>
   void write(const std::string& topic, const ros::Time& stamp, const Message& message) {
-    bag_.write(topic, stamp, message);
+    errno = 0;
+    try {
+      bag_->write(topic, stamp, message);
+    } catch (const std::exception& error) {
+      output_.fail(topic + ": " + error.what());
+    }
   }
+
+  /// Writes a message of another bag as it is. Throws as write(), and what rosbag throws when the message
+  /// cannot be read.
+  void copy(const rosbag::MessageInstance& message);
 
   /// Finishes the bag and gives it its final name. Throws std::runtime_error when that fails.
   void close();
 
  private:
-  std::string path_;
-  std::string temporary_path_;
-  rosbag::Bag bag_;
-  bool closed_{false};
+  TemporaryOutput output_;
+  std::unique_ptr<rosbag::Bag> bag_;
 };
 
 }  // namespace tet_line_tracker

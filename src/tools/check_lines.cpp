@@ -7,9 +7,12 @@
 #include <rosbag/bag.h>
 #include <rosbag/query.h>
 #include <rosbag/view.h>
+#include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 
 #include "../evaluation/line_rules.h"
+#include "bag_image.h"
+#include "bag_reader.h"
 #include "line_bag.h"
 #include "program.h"
 #include "sequence_bag.h"
@@ -24,11 +27,13 @@ bool checkBag(const std::string& path, const std::string& lines_topic, const std
   openForReading(bag, path);
   LineRules rules(min_length);
   for (const LineFrame& frame : readLines(bag, lines_topic).frames) rules.add(frame);
+  checkDefinition<sensor_msgs::Image>(bag, image_topic);
+  checkDefinition<sensor_msgs::CompressedImage>(bag, image_topic);
   std::size_t images = 0;
   rosbag::View view(bag, rosbag::TopicQuery(image_topic));
   for (const rosbag::MessageInstance& instance : view) {
     throwIfInterrupted();
-    const auto image = instance.instantiate<sensor_msgs::Image>();
+    const auto image = readImage(instance);
     if (!image) {
       throw std::runtime_error(std::string(image_topic).append(" of ").append(path).append(" holds ") +
                                instance.getDataType());

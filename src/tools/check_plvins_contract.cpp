@@ -9,6 +9,7 @@
 #include <rosbag/view.h>
 
 #include "../ros/pl_vins_pairing.h"
+#include "bag_reader.h"
 #include "pl_vins_contract.h"
 #include "program.h"
 
@@ -24,7 +25,10 @@ void print(const std::vector<ContractFault>& faults) {
 }
 
 void readBag(const std::string& path, const PlVinsTopics& topics, PlVinsContract* contract) {
-  rosbag::Bag bag(path, rosbag::bagmode::Read);
+  rosbag::Bag bag;
+  openForReading(bag, path);
+  checkDefinition<sensor_msgs::PointCloud>(bag, topics.points);
+  checkDefinition<sensor_msgs::PointCloud>(bag, topics.output);
   rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{topics.points, topics.output}));
   for (const rosbag::MessageInstance& instance : view) {
     throwIfInterrupted();

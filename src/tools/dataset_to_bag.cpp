@@ -7,6 +7,7 @@
 
 #include "datasets/dataset.h"
 #include "datasets/trajectory.h"
+#include "output_file.h"
 #include "program.h"
 #include "sequence_bag.h"
 #include "tet_line_tracker/camera/calibration_file.h"
@@ -31,6 +32,7 @@ void matchSize(CameraCalibration& camera, const cv::Size& size) {
                              std::to_string(camera.height) + " pixels, the images have " +
                              std::to_string(size.width) + "x" + std::to_string(size.height));
   }
+  makeCameraModel(camera);  // throws when it is not plausible
 }
 
 /// Writes the streams of a dataset in the order of their stamps.
@@ -105,6 +107,10 @@ int run(int argc, char** argv) {
     return 0;
   }
 
+  const std::string path = values["path"].as<std::string>();
+  const std::string out = values["out"].as<std::string>();
+  checkOutput(out, {path, values.count("camera-info") != 0 ? values["camera-info"].as<std::string>() : ""});
+  checkOutputBesideFolder(out, path);
   DatasetOptions dataset_options;
   if (values.count("rate") != 0) {
     const double rate_hz = values["rate"].as<double>();
@@ -120,9 +126,7 @@ int run(int argc, char** argv) {
 
   // Faults are reported by this program, in one sentence.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  const std::string out = values["out"].as<std::string>();
-  Dataset dataset =
-      openDataset(values["format"].as<std::string>(), values["path"].as<std::string>(), dataset_options);
+  Dataset dataset = openDataset(values["format"].as<std::string>(), path, dataset_options);
   const Counts counts = writeDataset(dataset, out);
   std::cout << out << ": " << counts.images << " images, " << counts.depth << " depth images, "
             << dataset.imu.size() << " IMU samples, " << counts.poses << " poses"

@@ -8,7 +8,7 @@
 #include <std_msgs/String.h>
 
 #include "../evaluation/map_accuracy.h"
-#include "line_bag.h"
+#include "bag_reader.h"
 #include "program.h"
 #include "sequence_bag.h"
 #include "tet_line_tracker/Line3DArray.h"
@@ -26,6 +26,7 @@ struct MapAndTruth {
 MapAndTruth read(const std::string& path, const std::string& map_topic) {
   rosbag::Bag bag;
   openForReading(bag, path);
+  checkDefinition<Line3DArray>(bag, map_topic);
   MapAndTruth result;
   Line3DArray::ConstPtr map;
   rosbag::View maps(bag, rosbag::TopicQuery(map_topic));

@@ -3,7 +3,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <fstream>
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>
@@ -16,7 +16,9 @@
 
 #include "../evaluation/evaluation_report.h"
 #include "../evaluation/track_measures.h"
+#include "bag_reader.h"
 #include "line_bag.h"
+#include "output_file.h"
 #include "program.h"
 #include "sequence_bag.h"
 #include "truth_bag.h"
@@ -36,11 +38,19 @@ EvaluatedBag evaluate(const std::string& path, const std::string& lines_topic,
           measureTracks(lines.frames, lines.has_statistics, truth.truth.get(), options)};
 }
 
-void writeFile(const std::string& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error("cannot write " + path);
+/// Before any work: no output is an input, or would take the place of what is no file.
+void checkOutputs(const std::vector<std::string>& bags, const std::string& csv_file,
+                  const std::string& json_file, const std::string& plot_folder) {
+  if (!csv_file.empty()) checkOutput(csv_file, bags);
+  if (!json_file.empty()) checkOutput(json_file, bags);
+  if (!csv_file.empty() && csv_file == json_file) {
+    throw std::runtime_error("--csv and --json are both " + csv_file + ", need two files");
+  }
+  if (plot_folder.empty() || !std::filesystem::exists(plot_folder)) return;
+  if (!std::filesystem::is_directory(plot_folder)) {
+    throw std::runtime_error("--plots is " + plot_folder + ", needs a folder");
+  }
+  checkOutput(plot_folder + "/evaluation.json", bags);
 }
 
 std::string folderOfThisProgram() {
@@ -64,6 +74,27 @@ void plot(const std::string& json_file, const std::string& folder) {
     throw std::runtime_error("plot_evaluation.py did not finish its plots in " + folder);
   }
 }
+
+constexpr char kColumns[] = R"(
+Columns (- where a value is not known):
+  truth      what the lines are judged by: scene, depth or none
+  images     images with lines, empty ones included
+  lines      lines per image, mean
+  cover%     share of an 8x6 grid over the image that a line crosses, mean
+  <2px%      share of the lines whose error from one image to the next is under 2 px
+  <1px%      the same under 1 px
+  err        median of that error [px]
+  drift5     median error between a track's first image and the 5th after it [px];
+  10 20 30   the same for the 10th, 20th and 30th
+  length     images per track, mean
+  clean      images until the drift of a track first passes 2 px, mean
+  surv%      of the images in which a track's first segment is still in view, the share
+             that the track covers with a drift under 2 px
+  sigma      spread of the errors in units of sigma_px; 1 where sigma_px is honest
+  ms         time per image, mean, by the statistics in the bag (track_bag --times)
+  ms p99     the same, 99th percentile
+  homog%     share of the lines in two images in a row that agree on one homography
+)";
 
 int run(int argc, char** argv) {
   namespace po = boost::program_options;
@@ -92,10 +123,11 @@ int run(int argc, char** argv) {
           "Judges the lines of bags by the exact scene of simulate_bag, or by depth images and "
           "poses.\nWithout truth only counts, lengths, times and the agreement with a homography "
           "are given.",
-          options, positional, values)) {
+          options, positional, values, kColumns)) {
     return 0;
   }
 
+  checkOutputs(paths, csv_file, json_file, plot_folder);
   std::vector<EvaluatedBag> bags;
   {
     ProgressBar progress(paths.size());
@@ -109,14 +141,14 @@ int run(int argc, char** argv) {
   if (!csv_file.empty()) {
     std::ostringstream text;
     writeCsv(text, bags);
-    writeFile(csv_file, text.str());
+    writeOutput(csv_file, text.str());
   }
   std::ostringstream json;
   if (!json_file.empty() || !plot_folder.empty()) writeJson(json, bags, with_pairs);
-  if (!json_file.empty()) writeFile(json_file, json.str());
+  if (!json_file.empty()) writeOutput(json_file, json.str());
   if (!plot_folder.empty()) {
     mkdir(plot_folder.c_str(), 0777);
-    writeFile(plot_folder + "/evaluation.json", json.str());
+    writeOutput(plot_folder + "/evaluation.json", json.str());
     plot(plot_folder + "/evaluation.json", plot_folder);
   }
   return 0;

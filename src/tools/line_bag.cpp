@@ -7,6 +7,7 @@
 #include <rosbag/view.h>
 
 #include "../ros/messages.h"
+#include "bag_reader.h"
 #include "tet_line_tracker/TrackingStatistics.h"
 
 namespace tet_line_tracker {
@@ -25,15 +26,8 @@ void takeTimes(const TrackingStatistics& message, LineFrame& frame) {
 
 }  // namespace
 
-void openForReading(rosbag::Bag& bag, const std::string& path) {
-  try {
-    bag.open(path, rosbag::bagmode::Read);
-  } catch (const std::exception& error) {
-    throw std::runtime_error("cannot read " + path + ": " + error.what());
-  }
-}
-
 LineBag readLines(const rosbag::Bag& bag, const std::string& topic) {
+  checkDefinition<LineArray>(bag, topic);
   LineBag lines;
   std::unordered_map<std::int64_t, std::size_t> frame_of_stamp;
   rosbag::View line_view(bag, rosbag::TopicQuery(topic));
@@ -50,6 +44,7 @@ LineBag readLines(const rosbag::Bag& bag, const std::string& topic) {
 
   std::size_t with_times = 0;
   const std::string statistics_topic = topic.substr(0, topic.rfind('/') + 1) + "statistics";
+  checkDefinition<TrackingStatistics>(bag, statistics_topic);
   rosbag::View statistics_view(bag, rosbag::TopicQuery(statistics_topic));
   for (const rosbag::MessageInstance& instance : statistics_view) {
     const auto message = instance.instantiate<TrackingStatistics>();

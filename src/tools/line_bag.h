@@ -15,9 +15,6 @@ struct LineBag {
   bool has_statistics{false};  ///< every frame carries the times of its statistics message
 };
 
-/// Opens a bag for reading. Throws std::runtime_error with the path and the reason.
-void openForReading(rosbag::Bag& bag, const std::string& path);
-
 /// Reads the LineArrays of `topic`, with the TrackingStatistics of its sister topic "statistics" where there
 /// are some. Throws std::runtime_error when the bag holds none.
 LineBag readLines(const rosbag::Bag& bag, const std::string& topic);

@@ -6,6 +6,7 @@
 
 #include "../ros/node_parameters.h"
 #include "../ros/pl_vins_pairing.h"
+#include "output_file.h"
 #include "parameter_markdown.h"
 #include "parameter_yaml.h"
 #include "program.h"
@@ -71,9 +72,8 @@ int run(int argc, char** argv) {
   NodeTables tables;
   const ParameterTable table = tables.of(node);
   if (!path.empty()) {
-    const std::string updated = withParameters(contentOf(path), node, markdownOf(table));
-    std::ofstream file(path, std::ios::binary);
-    if (!(file << updated).flush()) throw std::runtime_error(path + " cannot be written");
+    checkOutput(path, {});
+    writeOutput(path, withParameters(contentOf(path), node, markdownOf(table)));
   } else if (markdown) {
     std::cout << markdownOf(table);
   } else if (yaml) {

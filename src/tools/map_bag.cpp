@@ -14,8 +14,9 @@
 #include "../ros/map_messages.h"
 #include "../ros/messages.h"
 #include "../simulation/scene_geometry.h"
+#include "bag_reader.h"
 #include "bag_writer.h"
-#include "line_bag.h"
+#include "output_file.h"
 #include "parameter_arguments.h"
 #include "program.h"
 #include "sequence_bag.h"
@@ -67,7 +68,7 @@ void copyContext(const rosbag::Bag& input, BagWriter* output) {
       input, rosbag::TopicQuery(std::vector<std::string>{sequence_bag::kTfTopic, sequence_bag::kStaticTfTopic,
                                                          sequence_bag::kPoseTopic, kSceneTopic}));
   for (const rosbag::MessageInstance& instance : view) {
-    output->write(instance.getTopic(), instance.getTime(), instance);
+    output->copy(instance);
     if (instance.getTopic() != kSceneTopic) continue;
     if (const auto scene = instance.instantiate<std_msgs::String>()) {
       output->write(sequence_bag::kTrueEdgesTopic, instance.getTime(),
@@ -99,6 +100,9 @@ void printQuality(const std::vector<MappedLine>& lines) {
 void mapBag(const Arguments& arguments, const LineMapperParameters& parameters) {
   rosbag::Bag input;
   openForReading(input, arguments.input);
+  checkDefinition<LineArray>(input, arguments.lines_topic);
+  checkDefinition<tf2_msgs::TFMessage>(input, sequence_bag::kTfTopic);
+  checkDefinition<tf2_msgs::TFMessage>(input, sequence_bag::kStaticTfTopic);
   tf2::BufferCore transforms(ros::Duration(1e8));
   readTransforms(input, &transforms);
 
@@ -186,6 +190,7 @@ int run(int argc, char** argv) {
   LineMapperParameters parameters;
   ParameterTable table = tableOf(parameters);
   setParameters(config, settings, table);
+  checkOutput(arguments.output, {arguments.input, config});
   mapBag(arguments, parameters);
   return 0;
 }

@@ -1,18 +1,24 @@
 // Paints the lines of a bag over one of its images, as the node's ~debug_image shows them.
 
 #include <cstddef>
+#include <filesystem>
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <rosbag/bag.h>
 #include <rosbag/query.h>
 #include <rosbag/view.h>
+#include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 #include <opencv2/imgcodecs.hpp>
 
 #include "../ros/image_conversion.h"
+#include "bag_image.h"
+#include "bag_reader.h"
 #include "line_bag.h"
+#include "output_file.h"
 #include "program.h"
 #include "sequence_bag.h"
 #include "tet_line_tracker/display/track_painter.h"
@@ -30,19 +36,27 @@ struct Arguments {
 
 /// Paints all images up to the chosen one: trails need those before.
 void paintTracks(const Arguments& arguments) {
+  checkOutput(arguments.picture, {arguments.bag});
+  const std::string ending = std::filesystem::path(arguments.picture).extension();
+  if (ending.empty() || !cv::haveImageWriter(arguments.picture)) {
+    throw std::runtime_error("cannot write " + arguments.picture +
+                             ": no picture that OpenCV can write ends so, " + "needs .png or .jpg");
+  }
   rosbag::Bag bag;
   openForReading(bag, arguments.bag);
   const LineBag lines = readLines(bag, arguments.lines_topic);
   std::map<std::int64_t, const LineFrame*> frames;
   for (const LineFrame& frame : lines.frames) frames[frame.stamp_ns] = &frame;
 
+  checkDefinition<sensor_msgs::Image>(bag, arguments.image_topic);
+  checkDefinition<sensor_msgs::CompressedImage>(bag, arguments.image_topic);
   TrackPainter painter;
   cv::Mat picture;
   std::size_t painted = 0;
   rosbag::View view(bag, rosbag::TopicQuery(arguments.image_topic));
   for (const rosbag::MessageInstance& instance : view) {
     throwIfInterrupted();
-    const auto image = instance.instantiate<sensor_msgs::Image>();
+    const auto image = readImage(instance);
     if (!image) {
       throw std::runtime_error(arguments.image_topic + " of " + arguments.bag + " holds " +
                                instance.getDataType());
@@ -57,8 +71,9 @@ void paintTracks(const Arguments& arguments) {
                              arguments.image_topic + ", number " + std::to_string(arguments.number) +
                              " was asked for (track_bag --with-images copies the images)");
   }
-  if (!cv::imwrite(arguments.picture, picture))
-    throw std::runtime_error(arguments.picture + " cannot be written");
+  std::vector<unsigned char> bytes;
+  cv::imencode(ending, picture, bytes);
+  writeOutput(arguments.picture, {bytes.begin(), bytes.end()});
 }
 
 int run(int argc, char** argv) {

@@ -1,5 +1,6 @@
 #include "parameter_arguments.h"
 
+#include <set>
 #include <stdexcept>
 
 #include <yaml-cpp/yaml.h>
@@ -15,7 +16,13 @@ void setParameters(const std::string& file, const std::vector<std::string>& sett
       throw std::runtime_error("cannot read " + file + ": " + error.what());
     }
     if (!yaml.IsMap()) throw std::runtime_error(file + " is no list of `name: value` lines");
+    std::set<std::string> names;
     for (const auto& entry : yaml) {
+      // YAML forbids it, yaml-cpp takes it.
+      if (!names.insert(entry.first.Scalar()).second) {
+        throw std::runtime_error(file + ":" + std::to_string(entry.first.Mark().line + 1) + ": " +
+                                 entry.first.Scalar() + " is set twice");
+      }
       if (!entry.second.IsScalar()) {
         throw std::runtime_error(file + ": " + entry.first.Scalar() + " is not a single value");
       }

@@ -31,6 +31,8 @@ void throwIfInterrupted() {
 int runProgram(const std::string& name, const std::function<int()>& body) {
   std::signal(SIGINT, onSignal);
   std::signal(SIGTERM, onSignal);
+  // The terminal or the connection has gone; under nohup the program is to go on.
+  if (std::signal(SIGHUP, onSignal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   try {
     return body();
   } catch (const boost::program_options::error& error) {
@@ -45,7 +47,7 @@ int runProgram(const std::string& name, const std::function<int()>& body) {
 bool parseCommandLine(int argc, char** argv, const std::string& usage,
                       boost::program_options::options_description options,
                       const boost::program_options::positional_options_description& positional,
-                      boost::program_options::variables_map& values) {
+                      boost::program_options::variables_map& values, const std::string& more) {
   namespace po = boost::program_options;
   po::options_description visible("Options");
   for (const auto& option : options.options()) {
@@ -62,30 +64,48 @@ bool parseCommandLine(int argc, char** argv, const std::string& usage,
   po::store(po::command_line_parser(argc, argv).options(options).positional(positional).style(style).run(),
             values);
   if (values.count("help") != 0) {
-    std::cout << "usage: " << usage << "\n\n" << visible;
+    std::cout << "usage: " << usage << "\n\n" << visible << more;
     return false;
   }
   po::notify(values);
   return true;
 }
 
-ProgressBar::ProgressBar(std::size_t total) : total_(total), terminal_(isatty(STDERR_FILENO) != 0) {}
+ProgressBar::ProgressBar(std::size_t total, std::chrono::steady_clock::duration log_period)
+    : total_(total),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      log_period_(log_period),
+      log_next_(std::chrono::steady_clock::now() + log_period) {}
 
 ProgressBar::~ProgressBar() {
-  if (terminal_ && shown_percent_ >= 0) std::fputc('\n', stderr);
+  endLine();
 }
 
 void ProgressBar::advance() {
   ++done_;
-  if (!terminal_ || total_ == 0) return;
-  const int percent = static_cast<int>(100 * done_ / total_);
+  if (total_ == 0) return;
+  const int percent = static_cast<int>(std::min<std::size_t>(100, 100 * done_ / total_));
   if (percent == shown_percent_) return;
+  if (!terminal_) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now < log_next_) return;
+    log_next_ = now + log_period_;
+    shown_percent_ = percent;
+    std::fprintf(stderr, "%d %%\n", percent);
+    return;
+  }
   shown_percent_ = percent;
   std::string bar(50, ' ');
-  bar.replace(0, static_cast<std::size_t>(std::min(50, percent / 2)),
-              static_cast<std::size_t>(std::min(50, percent / 2)), '=');
+  bar.replace(0, static_cast<std::size_t>(percent / 2), static_cast<std::size_t>(percent / 2), '=');
   std::fprintf(stderr, "\r[%s] %3d %%", bar.c_str(), percent);
+  line_open_ = true;
+  if (percent == 100) endLine();
   std::fflush(stderr);
+}
+
+void ProgressBar::endLine() {
+  if (line_open_) std::fputc('\n', stderr);
+  line_open_ = false;
 }
 
 }  // namespace tet_line_tracker

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -8,7 +9,8 @@
 
 namespace tet_line_tracker {
 
-/// Set by Ctrl-C while a program runs under runProgram(); long loops check it through throwIfInterrupted().
+/// Set by Ctrl-C, SIGTERM or the end of the terminal while a program runs under runProgram(); long loops
+/// check it through throwIfInterrupted().
 bool interrupted();
 /// Throws std::runtime_error("interrupted") after Ctrl-C, so that destructors clean up half-written output.
 void throwIfInterrupted();
@@ -17,27 +19,36 @@ void throwIfInterrupted();
 /// leaves `body`, 2 for wrong usage (boost::program_options::error).
 int runProgram(const std::string& name, const std::function<int()>& body);
 
-/// Parses the command line. With --help prints `usage` and the options and gives false.
+/// Parses the command line. With --help prints `usage`, the options and `more`, and gives false.
 bool parseCommandLine(int argc, char** argv, const std::string& usage,
                       boost::program_options::options_description options,
                       const boost::program_options::positional_options_description& positional,
-                      boost::program_options::variables_map& values);
+                      boost::program_options::variables_map& values, const std::string& more = {});
 
-/// A progress bar on stderr while it is a terminal, nothing otherwise.
+/// A progress bar on stderr while it is a terminal; elsewhere, as in a log, a line with the percentage now
+/// and then.
 class ProgressBar {
  public:
-  explicit ProgressBar(std::size_t total);
+  /// Pause between two lines in a log.
+  static constexpr std::chrono::seconds kLogPeriod{30};
+
+  explicit ProgressBar(std::size_t total, std::chrono::steady_clock::duration log_period = kLogPeriod);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   void advance();
+  /// Ends the line, so that other text can follow; the next advance() begins a new one.
+  void endLine();
 
  private:
   std::size_t total_;
   std::size_t done_{0};
   int shown_percent_{-1};
   bool terminal_;
+  bool line_open_{false};
+  std::chrono::steady_clock::duration log_period_;
+  std::chrono::steady_clock::time_point log_next_;
 };
 
 }  // namespace tet_line_tracker

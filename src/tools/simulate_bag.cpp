@@ -8,6 +8,7 @@
 #include <std_msgs/String.h>
 
 #include "../simulation/simulation.h"
+#include "output_file.h"
 #include "program.h"
 #include "sequence_bag.h"
 #include "tet_line_tracker/camera/calibration_file.h"
@@ -30,7 +31,8 @@ ros::Time toRosTime(std::int64_t stamp_ns) {
   return stamp.fromNSec(static_cast<std::uint64_t>(stamp_ns));
 }
 
-void writeImuSamples(SequenceBag& bag, const Simulation& simulation, const Arguments& arguments) {
+/// Gives their number.
+int writeImuSamples(SequenceBag& bag, const Simulation& simulation, const Arguments& arguments) {
   constexpr double kRate = 200.0;   // [Hz]
   constexpr double kMargin = 0.05;  // before the first image and after the last [s]
   InertialErrors errors(arguments.simulation.seed, kRate);
@@ -42,9 +44,11 @@ void writeImuSamples(SequenceBag& bag, const Simulation& simulation, const Argum
     const InertialSample sample = arguments.noise_free_imu ? ideal : errors.apply(ideal);
     bag.writeImu(toRosTime(simulation.stampAt(time_s)), sample.angular_velocity, sample.acceleration);
   }
+  return count;
 }
 
 int simulate(const Arguments& arguments) {
+  checkOutput(arguments.out, {arguments.camera_info});
   const CameraCalibration camera = arguments.camera_info.empty()
                                        ? defaultSimulatedCamera()
                                        : readCalibrationFile(arguments.camera_info).camera;
@@ -58,7 +62,7 @@ int simulate(const Arguments& arguments) {
   std_msgs::String scene;
   scene.data = simulation.geometry().toText();
   bag.write(kSceneTopic, transform_stamp, scene);
-  if (!arguments.no_imu) writeImuSamples(bag, simulation, arguments);
+  const int imu_samples = arguments.no_imu ? 0 : writeImuSamples(bag, simulation, arguments);
 
   const int count = simulation.imageCount();
   ProgressBar progress(static_cast<std::size_t>(count));
@@ -71,6 +75,8 @@ int simulate(const Arguments& arguments) {
     progress.advance();
   }
   bag.close();
+  std::printf("%s: %d images, %d IMU samples, %g s\n", arguments.out.c_str(), count, imu_samples,
+              arguments.simulation.seconds);
   return 0;
 }
 

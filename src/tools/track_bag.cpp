@@ -1,29 +1,33 @@
 #include <cstdio>
-#include <iostream>
 #include <limits>
 #include <map>
 #include <memory>
-#include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
-#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
-#include <sensor_msgs/Imu.h>
+#include <tf2_msgs/TFMessage.h>
 #include <boost/program_options.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "../evaluation/baselines/baseline_tracker.h"
-#include "../ros/camera_info.h"
 #include "../ros/image_conversion.h"
 #include "../ros/imu_input.h"
 #include "../ros/mask_file.h"
 #include "../ros/messages.h"
 #include "../ros/node_parameters.h"
+#include "bag_calibration.h"
+#include "bag_image.h"
 #include "bag_imu.h"
+#include "bag_reader.h"
+#include "bag_topics.h"
 #include "bag_writer.h"
+#include "output_file.h"
 #include "parameter_arguments.h"
 #include "program.h"
 #include "sequence_bag.h"
@@ -45,41 +49,6 @@ struct Arguments {
   bool times{false};
 };
 
-/// The topic that was asked for, or the only one of its type in the bag.
-std::string chooseTopic(const std::string& asked, const std::string& type, const rosbag::Bag& bag,
-                        const std::string& path, bool required) {
-  std::set<std::string> topics;
-  rosbag::View view(bag);
-  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
-    if (connection->datatype == type) topics.insert(connection->topic);
-  }
-  topics.erase(sequence_bag::kDepthTopic);
-  std::string list;
-  for (const std::string& topic : topics) list += (list.empty() ? "" : ", ") + topic;
-  if (list.empty()) list = "none";
-  if (!asked.empty()) {
-    if (topics.count(asked) == 0) {
-      throw std::runtime_error(path + " has no topic " + asked + " of type " + type + "; it has: " + list);
-    }
-    return asked;
-  }
-  if (topics.size() == 1) return *topics.begin();
-  if (!required && topics.empty()) return {};
-  throw std::runtime_error(path + " has " + std::to_string(topics.size()) + " topics of type " + type + " (" +
-                           list + "), name one");
-}
-
-/// The IMU that was asked for, or the only one of the bag; none when there is more than one.
-std::string chooseImu(const Arguments& arguments, const rosbag::Bag& bag) {
-  if (arguments.imu_topic.empty()) {
-    rosbag::View view(bag, rosbag::TypeQuery(ros::message_traits::datatype<sensor_msgs::Imu>()));
-    std::set<std::string> topics;
-    for (const rosbag::ConnectionInfo* connection : view.getConnections()) topics.insert(connection->topic);
-    return topics.size() == 1 ? *topics.begin() : std::string();
-  }
-  return chooseTopic(arguments.imu_topic, "sensor_msgs/Imu", bag, arguments.input, true);
-}
-
 /// Without --times they are not a number: the same images then give the same bytes.
 TrackingStatistics statisticsOf(const LineFrame& frame, const std::string& frame_id, std::uint32_t sequence,
                                 const Arguments& arguments) {
@@ -92,28 +61,98 @@ TrackingStatistics statisticsOf(const LineFrame& frame, const std::string& frame
   return message;
 }
 
+/// A warning between two states of the progress bar.
+void warn(ProgressBar& progress, const std::string& sentence) {
+  progress.endLine();
+  std::fprintf(stderr, "warning: %s\n", sentence.c_str());
+}
+
+/// What a mask may do that is hardly meant; empty: nothing.
+std::string maskWarning(const std::string& path, const cv::Mat& mask) {
+  if (mask.empty()) return {};
+  if (cv::countNonZero(mask) == 0) return "the mask " + path + " is black everywhere: no line can be tracked";
+  const cv::Mat picture = cv::imread(path, cv::IMREAD_COLOR);
+  std::vector<cv::Mat> channels;
+  cv::split(picture, channels);
+  for (std::size_t i = 1; i < channels.size(); ++i) {
+    if (cv::norm(channels[0], channels[i], cv::NORM_INF) == 0.0) continue;
+    return "the mask " + path + " is coloured: lines are tracked where its gray value is 128 or more";
+  }
+  return {};
+}
+
+/// Images that are not tracked, as the node drops and counts them.
+class Drops {
+ public:
+  Drops(std::string where, ProgressBar& progress) : where_(std::move(where)), progress_(progress) {}
+
+  /// Tells the first one of a kind.
+  void add(const ros::Time& stamp, const std::string& kind, const std::string& reason) {
+    if (counts_[kind]++ > 0) return;
+    std::ostringstream time;
+    time << stamp;
+    warn(progress_, "image at " + time.str() + " of " + where_ + " is dropped: " + reason);
+  }
+  void add(const ros::Time& stamp, StreamVerdict verdict) {
+    if (verdict == StreamVerdict::kDropZero) {
+      add(stamp, "without a stamp", "it has no stamp");
+    } else if (verdict == StreamVerdict::kDropDuplicate) {
+      add(stamp, "with the stamp of the image before", "its stamp is the one of the image before");
+    } else {
+      add(stamp, "late", "its stamp is before the last one");
+    }
+  }
+  /// One line with the counts; nothing when no image was dropped.
+  void print() const {
+    std::size_t total = 0;
+    std::string kinds;
+    for (const auto& [kind, count] : counts_) {
+      total += count;
+      kinds += (kinds.empty() ? "" : ", ") + std::to_string(count) + " " + kind;
+    }
+    if (total > 0) std::printf("%zu images dropped: %s\n", total, kinds.c_str());
+  }
+
+ private:
+  std::string where_;
+  ProgressBar& progress_;
+  std::map<std::string, std::size_t> counts_;
+};
+
+constexpr char kUnreadable[] = "unreadable";
+
+/// The images of a view in stamp order, like a live stream without delays: a bag keeps the order of arrival.
+std::multimap<ros::Time, rosbag::MessageInstance> inStampOrder(rosbag::View& view, ProgressBar& progress,
+                                                               Drops& drops) {
+  std::multimap<ros::Time, rosbag::MessageInstance> images;
+  for (const rosbag::MessageInstance& instance : view) {
+    throwIfInterrupted();
+    progress.advance();
+    try {
+      if (const auto header = imageHeader(instance)) images.emplace(header->stamp, instance);
+    } catch (const ros::serialization::StreamOverrunException&) {
+      drops.add(instance.getTime(), kUnreadable, "its message is cut off");
+    }
+  }
+  return images;
+}
+
 void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_parameters,
               const NodeParameters& node_parameters) {
   rosbag::Bag input;
-  try {
-    input.open(arguments.input, rosbag::bagmode::Read);
-  } catch (const std::exception& error) {
-    throw std::runtime_error("cannot read " + arguments.input + ": " + error.what());
-  }
-  const std::string image_topic =
-      chooseTopic(arguments.image_topic, "sensor_msgs/Image", input, arguments.input, true);
-  const std::string info_topic =
-      chooseTopic(arguments.camera_info_topic, "sensor_msgs/CameraInfo", input, arguments.input, false);
+  openForReading(input, arguments.input);
+  const std::string image_topic = chooseImageTopic(input, arguments.image_topic);
+  const std::string info_topic = chooseCameraInfoTopic(input, arguments.camera_info_topic, image_topic);
+  const std::string imu_topic = chooseImuTopic(input, arguments.imu_topic);
+  checkDefinition<tf2_msgs::TFMessage>(input, sequence_bag::kTfTopic);
+  checkDefinition<tf2_msgs::TFMessage>(input, sequence_bag::kStaticTfTopic);
 
-  const std::string imu_topic = chooseImu(arguments, input);
-
-  // In stamp order, like a live stream without delays: a bag keeps the order of arrival.
   rosbag::View view(input, rosbag::TopicQuery(image_topic));
-  std::multimap<ros::Time, rosbag::MessageInstance> images;
-  for (const rosbag::MessageInstance& instance : view) {
-    if (const auto image = instance.instantiate<sensor_msgs::Image>())
-      images.emplace(image->header.stamp, instance);
-  }
+  rosbag::View everything(input);
+  // Each image is met three times: for its stamp, to be copied (or not), and to be tracked.
+  ProgressBar progress(2 * view.size() + everything.size());
+  Drops drops(image_topic + " in " + arguments.input, progress);
+  const auto images = inStampOrder(view, progress, drops);
 
   LineTracker tracker(tracker_parameters);
   if (arguments.tracker == "tet") {
@@ -124,30 +163,27 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
     baseline = makeBaselineTracker(arguments.tracker, tracker_parameters);
     cv::setNumThreads(1);  // times are those of one thread
   }
-  if (!info_topic.empty()) {
-    rosbag::View info_view(input, rosbag::TopicQuery(info_topic));
-    const auto info = info_view.begin()->instantiate<sensor_msgs::CameraInfo>();
-    const auto camera = makeCameraModel(fromCameraInfo(*info));
-    tracker.setCamera(camera);
-    if (baseline) baseline->setCamera(camera);
-  }
+  LineFrontEnd& front_end = baseline ? *baseline : tracker;
 
+  BagCalibration calibration(input, info_topic);
   const cv::Mat mask = readMask(node_parameters.mask);
   tracker.setMask(mask);
+  const std::string mask_warning = maskWarning(node_parameters.mask, mask);
+  if (!mask_warning.empty()) warn(progress, mask_warning);
   std::unique_ptr<BagImu> imu;
   if (!imu_topic.empty() && !baseline && tracker.usesImu() && !images.empty()) {
+    progress.endLine();
     imu = std::make_unique<BagImu>(input, imu_topic);
-    const auto image = images.begin()->second.instantiate<sensor_msgs::Image>();
-    imu->setRotation(image->header.frame_id, imuRotation(node_parameters.imu_rotation), tracker);
+    imu->setRotation(imageHeader(images.begin()->second)->frame_id, imuRotation(node_parameters.imu_rotation),
+                     tracker);
   }
 
   BagWriter output(arguments.output);
   // The truth and the calibration travel along, so that one bag is enough to judge the tracks.
-  rosbag::View everything(input);
   for (const rosbag::MessageInstance& instance : everything) {
-    if (arguments.with_images || instance.getTopic() != image_topic) {
-      output.write(instance.getTopic(), instance.getTime(), instance);
-    }
+    throwIfInterrupted();
+    progress.advance();
+    if (arguments.with_images || instance.getTopic() != image_topic) output.copy(instance);
   }
 
   TimeTable times;
@@ -156,18 +192,34 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
   std::size_t tracks = 0;
   std::size_t cut = 0;
   std::size_t left_out = 0;
-  ProgressBar progress(images.size());
   for (const auto& [stamp, instance] : images) {
     throwIfInterrupted();
     progress.advance();
-    const auto image = instance.instantiate<sensor_msgs::Image>();
-    const cv::Mat gray = toGray(*image, node_parameters.mono16_scale);
+    sensor_msgs::ImageConstPtr image;
+    cv::Mat gray;
+    try {
+      image = readImage(instance);
+      gray = toGray(*image, node_parameters.mono16_scale);
+    } catch (const std::invalid_argument& error) {
+      drops.add(stamp, kUnreadable, error.what());
+      continue;
+    }
     const std::string complaint = maskComplaint(mask, gray.cols, gray.rows);
     if (!complaint.empty()) throw std::runtime_error(complaint);
+    front_end.setCamera(calibration.modelFor(stamp, gray.cols, gray.rows));
+    const std::string trouble = calibration.takeComplaint();
+    if (!trouble.empty()) warn(progress, trouble);
     const auto stamp_ns = static_cast<std::int64_t>(stamp.toNSec());
     if (imu) imu->feed(stamp_ns, tracker);
-    LineFrontEnd& front_end = baseline ? *baseline : tracker;
-    const LineFrame* frame = front_end.process(gray, stamp_ns).frame;
+    FrameResult result;
+    try {
+      result = front_end.process(gray, stamp_ns);
+    } catch (const std::exception& error) {
+      drops.add(stamp, kUnreadable, error.what());
+      continue;
+    }
+    if (isDropped(result.verdict)) drops.add(stamp, result.verdict);
+    const LineFrame* frame = result.frame;
     if (frame == nullptr) continue;
     output.write(sequence_bag::kLinesTopic, stamp, toLineArray(*frame, image->header.frame_id, sequence));
     output.write(kStatisticsTopic, stamp, statisticsOf(*frame, image->header.frame_id, sequence, arguments));
@@ -178,12 +230,16 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
     left_out += frame->statistics.lines_left_out;
     times.add(frame->statistics);
   }
-  if (sequence == 0)
-    throw std::runtime_error(arguments.input + " has no image with a stamp on " + image_topic);
+  progress.endLine();
+  if (sequence == 0) {
+    throw std::runtime_error(arguments.input + " has no image with a stamp that can be read on " +
+                             image_topic);
+  }
   output.close();
   std::printf("%u images, %.1f lines per image, %zu tracks of %.1f images on average\n", sequence,
               static_cast<double>(lines) / sequence, tracks,
               tracks == 0 ? 0.0 : static_cast<double>(lines) / static_cast<double>(tracks));
+  drops.print();
   if (cut + left_out > 0) std::printf("field of view: %zu lines cut, %zu left out\n", cut, left_out);
   times.print();
 }
@@ -234,7 +290,14 @@ int run(int argc, char** argv) {
     broken += (broken.empty() ? "" : "; ") + sentence;
   }
   if (!broken.empty()) throw std::runtime_error(broken);
-  trackBag(arguments, tracker_parameters, node_parameters);
+  checkOutput(arguments.output, {arguments.input, config, node_parameters.mask});
+  try {
+    trackBag(arguments, tracker_parameters, node_parameters);
+  } catch (const rosbag::BagException& error) {
+    throw std::runtime_error("cannot read " + arguments.input + ": " + error.what());
+  } catch (const ros::serialization::StreamOverrunException&) {
+    throw std::runtime_error("cannot read " + arguments.input + ": a message in it is cut off");
+  }
   return 0;
 }
 

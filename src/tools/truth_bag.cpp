@@ -14,6 +14,7 @@
 #include "../evaluation/depth_truth.h"
 #include "../evaluation/scene_truth.h"
 #include "../ros/camera_info.h"
+#include "bag_reader.h"
 #include "sequence_bag.h"
 
 namespace tet_line_tracker {
@@ -70,6 +71,10 @@ std::unique_ptr<Truth> depthTruth(const rosbag::Bag& bag, PoseTrack poses,
 }  // namespace
 
 BagTruth readTruth(const rosbag::Bag& bag) {
+  checkDefinition<geometry_msgs::PoseStamped>(bag, sequence_bag::kPoseTopic);
+  checkDefinition<sensor_msgs::CameraInfo>(bag, sequence_bag::kCameraInfoTopic);
+  checkDefinition<sensor_msgs::Image>(bag, sequence_bag::kDepthTopic);
+  checkDefinition<std_msgs::String>(bag, kSceneTopic);
   PoseTrack poses = readPoses(bag);
   auto camera = readCamera(bag);
   if (poses.empty() || camera == nullptr) return {nullptr, "none"};

@@ -19,6 +19,8 @@ T yamlValue(const YAML::Node& node, const std::string& where, const char* needed
 }  // namespace
 
 YAML::Node loadYaml(const std::filesystem::path& path) {
+  // A fifo would wait for a writer.
+  if (!std::filesystem::is_regular_file(path)) throw std::runtime_error("cannot read " + path.string());
   YAML::Node node;
   try {
     node = YAML::LoadFile(path.string());

@@ -1,6 +1,7 @@
 #include "evaluation/baselines/baseline_tracker.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <string>

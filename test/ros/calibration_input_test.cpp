@@ -56,6 +56,18 @@ TEST(CalibrationInput, TellsOnceThatACameraInfoCannotBeUsed) {
   EXPECT_FALSE(input.update(info));
   EXPECT_EQ(input.modelFor(320, 240).camera, nullptr);
 
+  sensor_msgs::CameraInfo typed = cameraInfo(ros::Time(2));
+  typed.D = {458.654, 457.296, 367.215, 248.375};  // the intrinsics of EuRoC
+  const auto implausible = input.update(typed);
+  ASSERT_TRUE(implausible);
+  EXPECT_NE(implausible->find("458.654"), std::string::npos) << *implausible;
+  EXPECT_EQ(input.modelFor(320, 240).camera, nullptr);
+  sensor_msgs::CameraInfo huge = cameraInfo(ros::Time(3));
+  huge.width = 4294967295U;
+  const auto too_wide = input.update(huge);
+  ASSERT_TRUE(too_wide);
+  EXPECT_NE(too_wide->find("width is 2147483647 px"), std::string::npos) << *too_wide;
+
   sensor_msgs::CameraInfo uncalibrated;  // as drivers publish it without a calibration file: all zero
   EXPECT_TRUE(input.update(uncalibrated));
 }

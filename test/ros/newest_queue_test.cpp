@@ -1,9 +1,11 @@
 #include "newest_queue.h"
 
-#include <gtest/gtest.h>
+#include <algorithm>
 #include <chrono>
 #include <thread>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace tet_line_tracker {
 namespace {

@@ -1,5 +1,6 @@
 #include "simulation/light.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>

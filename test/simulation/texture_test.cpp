@@ -1,5 +1,7 @@
 #include "simulation/texture.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace tet_line_tracker {

@@ -1,5 +1,6 @@
 #include "simulation/trajectory.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 

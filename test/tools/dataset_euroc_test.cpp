@@ -4,6 +4,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
+#include <sys/stat.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include "bag_content.h"
@@ -32,13 +33,16 @@ class EurocFolder : public DatasetFolder {
                   std::to_string(std::cos(0.1)) + ",0,0," + std::to_string(std::sin(0.1)) + "\n");
   }
 
-  void writeSensor(const std::string& model) {
+  void writeSensor(const std::string& model, const std::string& resolution = "16, 12",
+                   const std::string& intrinsics = "20, 21, 8, 6",
+                   const std::string& distortion = "-0.3, 0.1, 0.001, 0.002") {
     writeText(root() / "mav0/cam0/sensor.yaml",
               "%YAML:1.0\nsensor_type: camera\nT_BS:\n  cols: 4\n  rows: 4\n"
               "  data: [0, -1, 0, 0, 1, 0, 0, 0.1,\n    0, 0, 1, 0, 0, 0, 0, 1]\n"
-              "resolution: [16, 12]\ncamera_model: pinhole\nintrinsics: [20, 21, 8, 6] #fu, fv, cu, cv\n"
-              "distortion_model: " +
-                  model + "\ndistortion_coefficients: [-0.3, 0.1, 0.001, 0.002]\n");
+              "resolution: [" +
+                  resolution + "]\ncamera_model: pinhole\nintrinsics: [" + intrinsics +
+                  "] #fu, fv, cu, cv\ndistortion_model: " + model + "\ndistortion_coefficients: [" +
+                  distortion + "]\n");
   }
 };
 
@@ -56,6 +60,18 @@ TEST_F(EurocFolder, KeepsStampsImagesAndImu) {
   EXPECT_EQ(imu[1].message.angular_velocity.y, 0.5);
   EXPECT_EQ(imu[1].message.linear_acceleration.z, 9.82);
   EXPECT_EQ(imu[1].message.header.frame_id, "imu0");
+}
+
+TEST_F(EurocFolder, DoesNotWaitForAFifo) {
+  for (const char* const name :
+       {"mav0/cam0/data.csv", "mav0/cam0/sensor.yaml", "mav0/cam0/data/1000000000100000000.png"}) {
+    std::filesystem::rename(root() / name, root() / "aside");
+    ASSERT_EQ(mkfifo((root() / name).c_str(), 0600), 0);
+    const ToolRun run = runTool("dataset_to_bag", {"euroc", root().string(), bag()}, "timeout -s KILL 60 ");
+    EXPECT_EQ(run.status, 1);
+    EXPECT_EQ(run.errors, "dataset_to_bag: cannot read " + (root() / name).string() + "\n");
+    std::filesystem::rename(root() / "aside", root() / name);
+  }
 }
 
 TEST_F(EurocFolder, KeepsTheCalibration) {
@@ -144,6 +160,15 @@ TEST_F(EurocFolder, RefusesMissingFilesAndStampsThatGoBack) {
   expectFailure("euroc", "cannot read " + (root() / "mav0/cam0/sensor.yaml").string());
   std::filesystem::remove_all(root() / "mav0/cam0");
   expectFailure("euroc", "is a folder");
+}
+
+TEST_F(EurocFolder, RefusesAnImplausibleCalibrationAndNamesTheValue) {
+  writeSensor("radtan", "16, 12", "0, 21, 8, 6");
+  expectFailure("euroc", "mav0/cam0/sensor.yaml: fx is 0");
+  writeSensor("radtan", "160.7, 12");
+  expectFailure("euroc", "mav0/cam0/sensor.yaml: resolution[0]");
+  writeSensor("radtan", "16, 12", "20, 21, 8, 6", "20, 21, 8, 6");
+  expectFailure("euroc", "mav0/cam0/sensor.yaml: plumb_bob with coefficients [20, 21, 8, 6, 0]");
 }
 
 TEST_F(EurocFolder, RefusesAnUnknownDistortionAndARate) {

@@ -1,5 +1,8 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
+#include <sys/stat.h>
+
+#include <fstream>
 
 #include "bag_content.h"
 #include "dataset_folder.h"
@@ -93,6 +96,40 @@ TEST_F(ImageFolder, RefusesCutOffJpegs) {
   writeImage("img4.jpg", 4);
   cutOff("img4.jpg");
   expectFailure("images", "img4.jpg is cut off");
+}
+
+TEST_F(ImageFolder, RefusesJpegsThatAreCorruptInTheirMiddle) {
+  writeImage("img4.jpg", 4, CV_8UC1, {160, 120});
+  std::filesystem::remove(root() / "img1.png");
+  std::filesystem::remove(root() / "img2.png");
+  std::filesystem::remove(root() / "img10.png");
+  ASSERT_EQ(convert("images").status, 0);
+  std::filesystem::remove(bag());
+  // Ones are no code of any Huffman table.
+  std::fstream file(root() / "img4.jpg", std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(static_cast<std::streamoff>(std::filesystem::file_size(root() / "img4.jpg") / 2));
+  for (int i = 0; i < 40; ++i) file.put(static_cast<char>(i % 2 == 0 ? 0xFF : 0x00));
+  file.close();
+  expectFailure("images", "img4.jpg is damaged (Corrupt JPEG data: ");
+}
+
+TEST_F(ImageFolder, TakesRegularFilesOnly) {
+  ASSERT_EQ(mkfifo((root() / "img3.png").c_str(), 0600), 0);
+  const ToolRun run = runTool("dataset_to_bag", {"images", root().string(), bag()}, "timeout -s KILL 60 ");
+  EXPECT_EQ(run.status, 0) << run.errors;
+  EXPECT_EQ(readTopic<sensor_msgs::Image>(bag(), "/cam0/image_raw").size(), 3U);
+  const ToolRun video =
+      runTool("dataset_to_bag", {"video", (root() / "img3.png").string(), bag()}, "timeout -s KILL 60 ");
+  EXPECT_EQ(video.status, 1);
+  EXPECT_EQ(video.errors, "dataset_to_bag: " + (root() / "img3.png").string() + " is no regular file\n");
+}
+
+TEST_F(ImageFolder, IsNotReplacedByItsOwnBag) {
+  const std::string image = root() / "img1.png";
+  const ToolRun run = runTool("dataset_to_bag", {"images", root().string(), image});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.errors, "dataset_to_bag: cannot write " + image + ": it is " + image + " of the input\n");
+  EXPECT_EQ(convert("images").status, 0) << "img1.png is still an image";
 }
 
 TEST_F(ImageFolder, RefusesFilesThatAreNoImages) {

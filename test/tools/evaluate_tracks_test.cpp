@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -77,6 +79,21 @@ TEST_F(EvaluateTracks, WritesTheSameMeasuresAsTextCsvAndJson) {
   double pairs = 0.0;
   for (const YAML::Node& count : json[0]["error_histogram"]["counts"]) pairs += count.as<double>();
   EXPECT_EQ(pairs, json[0]["judged_pairs"].as<double>());
+}
+
+TEST_F(EvaluateTracks, ExplainsEveryColumnOfItsTable) {
+  const ToolRun run = runTool("evaluate_tracks", {in("first.bag")});
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const std::string help = runTool("evaluate_tracks", {"--help"}).output;
+  std::istringstream columns(help.substr(std::min(help.size(), help.find("\nColumns"))));
+  std::set<std::string> words;
+  for (std::string word; columns >> word;) words.insert(word);
+  std::istringstream header(run.output.substr(0, run.output.find('\n')));
+  std::string name;
+  header >> name;  // bag
+  std::size_t names = 0;
+  for (; header >> name; ++names) EXPECT_EQ(words.count(name), 1U) << name << " is not explained:\n" << help;
+  EXPECT_GE(names, 15U);
 }
 
 TEST_F(EvaluateTracks, EndsWithASentenceAndNoFileOnABagWithoutLines) {

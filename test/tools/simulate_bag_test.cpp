@@ -47,6 +47,7 @@ TEST(SimulateBag, HoldsAllThatTheJudgeAndAnEstimatorNeed) {
   const std::string bag = folder.path() / "slow.bag";
   const ToolRun run = runTool("simulate_bag", {bag, "--seconds", "0.2", "--light", "low,drift"});
   ASSERT_EQ(run.status, 0) << run.errors;
+  EXPECT_EQ(run.output.find(bag + ": 5 images, "), 0U) << run.output;
 
   const auto images = readTopic<sensor_msgs::Image>(bag, "/cam0/image_raw");
   const auto poses = readTopic<geometry_msgs::PoseStamped>(bag, "/ground_truth/pose");

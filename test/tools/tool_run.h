@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,18 @@ struct ToolRun {
   std::string errors;
 };
 
-/// Runs a program of this package to its end.
-ToolRun runTool(const std::string& name, const std::vector<std::string>& arguments);
+/// Runs a program of this package to its end. `prefix`: what the shell is to do first ("ulimit -f 8; "), or
+/// the command that is to start the program ("timeout -s KILL 60 ").
+ToolRun runTool(const std::string& name, const std::vector<std::string>& arguments,
+                const std::string& prefix = {});
+
+/// The same on a terminal of its own, which gets all that the program prints (output).
+ToolRun runToolOnTerminal(const std::string& name, const std::vector<std::string>& arguments);
+
+/// Starts a program of this package, sends it `signal` once `isDue`, and waits for its end. A program that
+/// ends before gets none.
+ToolRun signalTool(const std::string& name, const std::vector<std::string>& arguments, int signal,
+                   const std::function<bool()>& isDue);
 
 /// Folder of the extracts of public datasets, from the environment variable TET_SHARED_DATA or beside the
 /// project; it need not exist.

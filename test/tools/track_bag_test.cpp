@@ -3,6 +3,7 @@
 #include <tf2_msgs/TFMessage.h>
 #include <opencv2/imgcodecs.hpp>
 
+#include <algorithm>
 #include <map>
 
 #include "bag_content.h"
@@ -125,6 +126,14 @@ TEST_F(TrackBag, TheMaskKeepsLinesOutAndMustHaveTheSizeOfTheImages) {
   EXPECT_NE(none.status, 0);
   EXPECT_NE(none.errors.find("parameter mask is /nowhere.png"), std::string::npos) << none.errors;
   EXPECT_FALSE(std::filesystem::exists(file("never.bag")));
+}
+
+TEST_F(TrackBag, OnATerminalABarGoesWithAllItsWorkAndEndsItsLine) {
+  const ToolRun run = runToolOnTerminal("track_bag", {flight(), file("tracks.bag"), "--with-images"});
+  ASSERT_EQ(run.status, 0) << run.output;
+  // Eleven images alone would give as many states.
+  EXPECT_GT(std::count(run.output.begin(), run.output.end(), '['), 50) << run.output;
+  EXPECT_NE(run.output.find("] 100 %\r\n11 images, "), std::string::npos) << run.output;
 }
 
 TEST_F(TrackBag, AnImuThatIsNotThereIsSaid) {

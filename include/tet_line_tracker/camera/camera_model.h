@@ -51,9 +51,16 @@ class CameraModel {
   CameraCalibration calibration_;
 };
 
-/// Model for a calibration. Throws std::invalid_argument that names the field at fault: an unknown model, a
-/// wrong number of coefficients, a value that is not finite, a focal length of zero. Known, with the order of
-/// their coefficients:
+/// One sentence for each broken rule, with the value seen and what is needed; empty when the calibration can
+/// be used. Rules that no real camera breaks: finite numbers, a known model with its number of coefficients,
+/// fx > 0, focal lengths of 0.05 to 50 times the larger side of the image that differ by 5 times at most, a
+/// principal point within 20 of them, and a distortion that can be undone in 5 % of the image or more and
+/// there neither folds it nor enlarges it over 5 times. Without an image size that of twice the principal
+/// point.
+std::vector<std::string> check(const CameraCalibration& calibration);
+
+/// Model for a calibration. Throws std::invalid_argument with all rules of check() that it breaks. Known,
+/// with the order of their coefficients:
 /// - plumb_bob: k1 k2 p1 p2 [k3]; also none at all, an ideal pinhole,
 /// - rational_polynomial: k1 k2 p1 p2 k3 k4 k5 k6 as in OpenCV,
 /// - equidistant: k1 k2 k3 k4 (Kannala-Brandt), rays beyond 90 degrees included,

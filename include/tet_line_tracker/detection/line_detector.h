@@ -7,15 +7,16 @@
 
 #include <opencv2/core.hpp>
 
-#include "tet_line_tracker/geometry/line_segment.h"
+#include "tet_line_tracker/camera/lens_bend.h"
+#include "tet_line_tracker/geometry/line_bend.h"
 
 namespace tet_line_tracker {
 
 /// What is known of an image before lines are detected in it.
 struct DetectionHints {
   cv::Mat mask;  ///< 8-bit, size of the image: lines only where it is not zero; empty: everywhere
-  std::vector<LineSegment>
-      tracked;  ///< lines that need not be found again; a detector may do so nevertheless
+  std::vector<LineCurve> tracked;  ///< lines that need not be found again; a detector may do so nevertheless
+  const LensBend* lens{nullptr};  ///< a detector may follow lines as the lens bends them; nullptr: not at all
   std::size_t enough{std::numeric_limits<std::size_t>::max()};  ///< a detector may stop at so many lines
 };
 

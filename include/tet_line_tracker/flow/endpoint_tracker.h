@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "tet_line_tracker/geometry/line_segment.h"
+#include "tet_line_tracker/geometry/line_bend.h"
 #include "tet_line_tracker/image/image_pyramid.h"
 #include "tet_line_tracker/parameters/parameters.h"
 
@@ -51,13 +51,13 @@ class EndpointTracker {
  public:
   virtual ~EndpointTracker() = default;
 
-  /// Takes the patches of `segment` from the first image.
-  void extractTemplate(const ImagePyramid& first, const LineSegment& segment, LineTemplate& patches) const;
+  /// Takes the patches along `line` from the first image.
+  void extractTemplate(const ImagePyramid& first, const LineCurve& line, LineTemplate& patches) const;
 
   /// Follows the line of `patches` into the second image, from where it is expected there. Throws
   /// std::invalid_argument when `patches` were extracted with another window size.
   EndpointFlow track(const LineTemplate& patches, const ImagePyramid& second,
-                     const LineSegment& expected) const;
+                     const LineCurve& expected) const;
 
  protected:
   using Status = EndpointFlow::Status;
@@ -73,9 +73,9 @@ class EndpointTracker {
   const EndpointTrackerParameters& parameters() const { return parameters_; }
 
  private:
-  /// Moves `segment` [px of the level] from where it is expected to where it is; sets the residual on the
-  /// finest level.
-  virtual Status trackOnLevel(const PatchRow& row, const cv::Mat& image, bool finest, LineSegment& segment,
+  /// Moves the chord of `line` [px of the level] from where it is expected to where it is; the bend stays.
+  /// Sets the residual on the finest level.
+  virtual Status trackOnLevel(const PatchRow& row, const cv::Mat& image, bool finest, LineCurve& line,
                               float& residual) const = 0;
 
   EndpointTrackerParameters parameters_;

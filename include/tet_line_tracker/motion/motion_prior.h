@@ -26,9 +26,10 @@ struct MotionPrediction {
 };
 
 /// Predicts where lines are in the next image from the rotation of the camera, which moves far and near
-/// points alike and makes up most of the image motion of a fast camera. The rotation comes from a gyroscope,
-/// or from a direct alignment of the coarsest pyramid levels, and is used only if the images agree that it is
-/// better than none. Not thread-safe.
+/// points alike and makes up most of the image motion of a fast camera. The rotation comes from a direct
+/// alignment of the coarsest pyramid levels, from a gyroscope, or from an alignment that begins at the
+/// gyroscope's, whichever fits the images best, and is used only if they agree that it is better than none.
+/// Not thread-safe.
 class MotionPrior {
  public:
   explicit MotionPrior(const MotionPriorParameters& parameters);
@@ -43,6 +44,9 @@ class MotionPrior {
   void setImuRotation(const Eigen::Matrix3d& camera_from_imu);
   /// Angular velocity in the IMU's frame [rad/s], in the order of stamps [ns]; late ones are ignored.
   void addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3d& angular_velocity);
+
+  /// Bias of the gyroscope as learned from the images so far, in the camera's optical frame [rad/s].
+  Eigen::Vector3d gyroBias() const;
 
   /// Forgets the image before; the next predict() gives no motion.
   void reset();

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <array>
 #include <limits>
 
 #include <opencv2/core.hpp>
 
-#include "tet_line_tracker/geometry/line_segment.h"
+#include "tet_line_tracker/geometry/line_bend.h"
 #include "tet_line_tracker/parameters/parameters.h"
 
 namespace tet_line_tracker {
@@ -17,23 +18,28 @@ struct EdgeFit {
                          ///< screen is brighter [gray / px]
   /// Standard deviation of the position along the normal; NaN: too little support to tell [px]
   float sigma_px{std::numeric_limits<float>::quiet_NaN()};
+  /// Covariance of the distances of start and end across the line: var(start), cov, var(end); NaN as sigma_px
+  /// [px^2]
+  std::array<float, 3> covariance_px{std::numeric_limits<float>::quiet_NaN(),
+                                     std::numeric_limits<float>::quiet_NaN(),
+                                     std::numeric_limits<float>::quiet_NaN()};
 };
 
 /// Puts a line on the edge under it: looks for the steepest place of the right polarity on profiles across
-/// the line, fits a straight line through them that single wrong samples do not pull away, and says how much
-/// of the line has an edge. Keeps endpoint flow from drifting. Const and thread-safe.
+/// the line, which the lens may bend, fits offset and tilt through them that single wrong samples do not pull
+/// away, and says how much of the line has an edge. Keeps endpoint flow from drifting. Const and thread-safe.
 class LineRefiner {
  public:
   explicit LineRefiner(const LineRefinerParameters& parameters) : parameters_(parameters) {}
 
   /// Contrast of the edge under `line` as it lies, whose brighter side is to the left on screen, as detectors
   /// promise [gray / px]; 0: none. A stronger edge of the other polarity beside it does not count.
-  float contrastOf(const cv::Mat& gray, const LineSegment& line) const;
+  float contrastOf(const cv::Mat& gray, const LineCurve& line) const;
 
   /// Fits `line` to the edge near it whose contrast has the sign and about the size of `contrast` [gray /
   /// px]. `gray`: 8-bit, one channel. A line with too little support comes back as it was, with its support;
   /// on fewer than four samples it has none.
-  EdgeFit fit(const cv::Mat& gray, const LineSegment& line, float contrast) const;
+  EdgeFit fit(const cv::Mat& gray, const LineCurve& line, float contrast) const;
 
  private:
   LineRefinerParameters parameters_;

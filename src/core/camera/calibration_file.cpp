@@ -28,10 +28,11 @@ class Section {
 
   double number(const std::string& key) const { return toNumber(require(key), nameOf(key)); }
 
-  int integer(const std::string& key) const {
-    const double value = number(key);
+  int integer(const std::string& key) const { return toInteger(number(key), nameOf(key)); }
+
+  static int toInteger(double value, const std::string& name) {
     if (value != std::floor(value) || std::abs(value) > 1e6) {
-      throw std::runtime_error(nameOf(key) + " is " + std::to_string(value) + ", needs a whole number");
+      throw std::runtime_error(name + " is " + std::to_string(value) + ", needs a whole number");
     }
     return static_cast<int>(value);
   }
@@ -90,9 +91,8 @@ class Section {
   std::string place_;
 };
 
-/// Throws unless the upper left 3x3 of a row-major matrix with rows of `stride` numbers turns and does not
-/// deform.
-Eigen::Matrix3d rotationOf(const std::vector<double>& m, std::size_t stride, const std::string& name) {
+/// Upper left 3x3 of a row-major matrix with rows of `stride` numbers. Throws unless it is a rotation.
+Eigen::Matrix3d toRotation(const std::vector<double>& m, std::size_t stride, const std::string& name) {
   Eigen::Matrix3d rotation;
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 3; ++column) {
@@ -105,9 +105,9 @@ Eigen::Matrix3d rotationOf(const std::vector<double>& m, std::size_t stride, con
   return Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
 }
 
-Eigen::Isometry3d isometryOf(const std::vector<double>& m, const std::string& name) {
+Eigen::Isometry3d toIsometry(const std::vector<double>& m, const std::string& name) {
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
-  transform.linear() = rotationOf(m, 4, name);
+  transform.linear() = toRotation(m, 4, name);
   transform.translation() = Eigen::Vector3d(m[3], m[7], m[11]);
   return transform;
 }
@@ -140,8 +140,8 @@ CalibrationFile fromKalibr(const Section& file, int index) {
   result.name = "cam" + std::to_string(index);
   const Section camera = file.section(result.name);
   const std::vector<double> size = camera.numbers("resolution", 2);
-  result.camera.width = static_cast<int>(size[0]);
-  result.camera.height = static_cast<int>(size[1]);
+  result.camera.width = Section::toInteger(size[0], camera.nameOf("resolution[0]"));
+  result.camera.height = Section::toInteger(size[1], camera.nameOf("resolution[1]"));
 
   const std::string projection = camera.text("camera_model");
   const std::string distortion = camera.text("distortion_model");
@@ -162,7 +162,7 @@ CalibrationFile fromKalibr(const Section& file, int index) {
                              "\"; known: pinhole with radtan, equi or none, omni with radtan or none");
   }
   if (camera.has("T_cam_imu")) {
-    result.camera_from_imu = isometryOf(camera.numbers("T_cam_imu", 16), camera.nameOf("T_cam_imu"));
+    result.camera_from_imu = toIsometry(camera.numbers("T_cam_imu", 16), camera.nameOf("T_cam_imu"));
   }
   return result;
 }
@@ -170,11 +170,11 @@ CalibrationFile fromKalibr(const Section& file, int index) {
 /// The extrinsics of VINS: both forms move a point of the camera's frame to the IMU's.
 std::optional<Eigen::Isometry3d> vinsExtrinsics(const Section& file, int index) {
   const std::string fusion = "body_T_cam" + std::to_string(index);
-  if (file.has(fusion)) return isometryOf(file.numbers(fusion, 16), fusion).inverse();
+  if (file.has(fusion)) return toIsometry(file.numbers(fusion, 16), fusion).inverse();
   if (!file.has("extrinsicRotation") || !file.has("extrinsicTranslation")) return std::nullopt;
   const std::vector<double> t = file.numbers("extrinsicTranslation", 3);
   Eigen::Isometry3d imu_from_camera = Eigen::Isometry3d::Identity();
-  imu_from_camera.linear() = rotationOf(file.numbers("extrinsicRotation", 9), 3, "extrinsicRotation");
+  imu_from_camera.linear() = toRotation(file.numbers("extrinsicRotation", 9), 3, "extrinsicRotation");
   imu_from_camera.translation() = Eigen::Vector3d(t[0], t[1], t[2]);
   return imu_from_camera.inverse();
 }

@@ -6,9 +6,11 @@
 
 namespace tet_line_tracker {
 
-// One function per projection; makeCameraModel() has checked that all numbers are finite and the focal
-// lengths differ from 0. Each throws std::invalid_argument that names what else is wrong with the
-// calibration.
+// Models without the test of plausibility that makeCameraModel() makes. Each throws std::invalid_argument
+// when the number of coefficients does not fit the model, or one of them is not supported.
+
+/// Chooses by the name of the distortion model; throws std::invalid_argument when it is not known.
+std::shared_ptr<const CameraModel> makeUncheckedCameraModel(const CameraCalibration& calibration);
 
 /// "plumb_bob" (k1 k2 p1 p2 [k3]) and "rational_polynomial" (k1 k2 p1 p2 k3 k4 k5 k6).
 std::shared_ptr<const CameraModel> makePinholeModel(const CameraCalibration& calibration);

@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "camera/camera_models.h"
-#include "camera/increasing_root.h"
+#include "camera/monotonic_root.h"
 
 namespace tet_line_tracker {
 namespace {
@@ -17,7 +17,7 @@ class EquidistantModel final : public CameraModel {
  public:
   explicit EquidistantModel(const CameraCalibration& calibration) : CameraModel(calibration) {
     for (std::size_t i = 0; i < calibration.distortion.size(); ++i) k_[i] = calibration.distortion[i];
-    max_angle_ = endOfIncrease([this](double angle) { return radius(angle).slope; }, 0.001, kPi);
+    max_angle_ = endOfMonotonicRange([this](double angle) { return radius(angle).slope; }, 0.001, kPi);
     max_radius_ = radius(max_angle_).value;
   }
 
@@ -39,7 +39,7 @@ class EquidistantModel final : public CameraModel {
     if (!(distance <= max_radius_)) return std::nullopt;
     if (distance == 0.0) return Eigen::Vector3d::UnitZ();
     const double angle =
-        solveIncreasing([this](double theta) { return radius(theta); }, distance, 0.0, max_angle_);
+        solveMonotonic([this](double theta) { return radius(theta); }, distance, 0.0, max_angle_);
     if (std::abs(radius(angle).value - distance) > 1e-12) return std::nullopt;
     const Eigen::Vector2d across = on_plane * (std::sin(angle) / distance);
     return Eigen::Vector3d(across.x(), across.y(), std::cos(angle));
@@ -62,7 +62,7 @@ class EquidistantModel final : public CameraModel {
 std::shared_ptr<const CameraModel> makeEquidistantModel(const CameraCalibration& calibration) {
   const std::size_t n = calibration.distortion.size();
   if (n != 0 && n != 4) {
-    throw std::invalid_argument("calibration: equidistant has " + std::to_string(n) +
+    throw std::invalid_argument("equidistant has " + std::to_string(n) +
                                 " distortion coefficients, needs 0 or 4");
   }
   return std::make_shared<EquidistantModel>(calibration);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/clamp.h"
+
 namespace tet_line_tracker {
 namespace {
 
@@ -28,7 +30,8 @@ FieldOfView::FieldOfView(std::shared_ptr<const CameraModel> camera, const ImageB
   camera_.reset();
 }
 
-std::optional<LineSegment> FieldOfView::clip(const LineSegment& segment, float min_length) const {
+std::optional<LineSegment> FieldOfView::clip(const LineCurve& curve, float min_length) const {
+  const LineSegment& segment = curve.chord;
   if (!camera_) return segment;
   const bool start_in_view = contains(segment.start);
   const bool end_in_view = contains(segment.end);
@@ -37,29 +40,30 @@ std::optional<LineSegment> FieldOfView::clip(const LineSegment& segment, float m
   float in_view = start_in_view ? 0.0F : 1.0F;
   if (!start_in_view && !end_in_view) {
     // Steps that a part of min_length cannot slip through.
-    const int steps = 1 + static_cast<int>(segment.length() / min_length);
+    const int steps = 1 + static_cast<int>(clampOrLow(segment.length() / min_length, 0.0F, 1e4F));
     int i = 1;
-    while (i < steps && !contains(segment.at(static_cast<float>(i) / static_cast<float>(steps)))) ++i;
+    while (i < steps && !contains(curve.at(static_cast<float>(i) / static_cast<float>(steps)))) ++i;
     if (i >= steps) return std::nullopt;
     in_view = static_cast<float>(i) / static_cast<float>(steps);
   }
   LineSegment cut = segment;
-  if (!start_in_view) cut.start = lastInView(segment, in_view, 0.0F);
-  if (!end_in_view) cut.end = lastInView(segment, in_view, 1.0F);
+  if (!start_in_view) cut.start = lastInView(curve, in_view, 0.0F);
+  if (!end_in_view) cut.end = lastInView(curve, in_view, 1.0F);
   if (cut.length() < min_length) return std::nullopt;
   return cut;
 }
 
 bool FieldOfView::contains(const Eigen::Vector2f& pixel) const {
-  return camera_->normalize(pixel.cast<double>()).has_value();
+  return !camera_ || camera_->normalize(pixel.cast<double>()).has_value();
 }
 
-/// Last point of `segment` in view on the way from the fraction `in_view` to the fraction `beyond`.
-Eigen::Vector2f FieldOfView::lastInView(const LineSegment& segment, float in_view, float beyond) const {
-  Eigen::Vector2f last = segment.at(in_view);
-  while (std::abs(beyond - in_view) * segment.length() > kCutAccuracy) {
+/// Last point of `curve` in view on the way from the fraction `in_view` to the fraction `beyond`.
+Eigen::Vector2f FieldOfView::lastInView(const LineCurve& curve, float in_view, float beyond) const {
+  Eigen::Vector2f last = curve.at(in_view);
+  while (std::abs(beyond - in_view) * curve.chord.length() > kCutAccuracy) {
     const float middle = 0.5F * (in_view + beyond);
-    const Eigen::Vector2f point = segment.at(middle);
+    if (middle == in_view || middle == beyond) break;  // float knows nothing in between
+    const Eigen::Vector2f point = curve.at(middle);
     if (contains(point)) {
       last = point;
       in_view = middle;

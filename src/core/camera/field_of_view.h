@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "tet_line_tracker/camera/camera_model.h"
-#include "tet_line_tracker/geometry/line_segment.h"
+#include "tet_line_tracker/geometry/line_bend.h"
 
 namespace tet_line_tracker {
 
@@ -16,13 +16,15 @@ class FieldOfView {
   /// everything is in view.
   FieldOfView(std::shared_ptr<const CameraModel> camera, const ImageBounds& bounds);
 
-  /// The part of `segment` that can be normalised, start and end in their roles; nothing when less than
-  /// `min_length` [px] can. A segment in view comes back as it is.
-  std::optional<LineSegment> clip(const LineSegment& segment, float min_length) const;
+  /// The part of `curve` that can be normalised, start and end in their roles; nothing when less than
+  /// `min_length` [px] can. A line with both ends in view comes back as it is.
+  std::optional<LineSegment> clip(const LineCurve& curve, float min_length) const;
+
+  /// Whether a pixel within the bounds can be normalised.
+  bool contains(const Eigen::Vector2f& pixel) const;
 
  private:
-  bool contains(const Eigen::Vector2f& pixel) const;
-  Eigen::Vector2f lastInView(const LineSegment& segment, float in_view, float beyond) const;
+  Eigen::Vector2f lastInView(const LineCurve& curve, float in_view, float beyond) const;
 
   std::shared_ptr<const CameraModel> camera_;  ///< none: all pixels within the bounds are in view
 };

@@ -52,11 +52,11 @@ class MeiModel final : public CameraModel {
 
 std::shared_ptr<const CameraModel> makeMeiModel(const CameraCalibration& calibration) {
   if (calibration.distortion.size() != 5) {
-    throw std::invalid_argument("calibration: mei has " + std::to_string(calibration.distortion.size()) +
+    throw std::invalid_argument("mei has " + std::to_string(calibration.distortion.size()) +
                                 " distortion coefficients, needs 5 (xi k1 k2 p1 p2)");
   }
   if (calibration.distortion[0] < 0.0) {
-    throw std::invalid_argument("calibration: xi of mei is " + std::to_string(calibration.distortion[0]) +
+    throw std::invalid_argument("xi of mei is " + std::to_string(calibration.distortion[0]) +
                                 ", needs 0 or more");
   }
   return std::make_shared<MeiModel>(calibration);

@@ -9,7 +9,7 @@ namespace {
 PlaneDistortion::Coefficients plumbBobCoefficients(const std::vector<double>& d) {
   const std::size_t n = d.size();
   if (n != 0 && n != 4 && n != 5) {
-    throw std::invalid_argument("calibration: plumb_bob has " + std::to_string(n) +
+    throw std::invalid_argument("plumb_bob has " + std::to_string(n) +
                                 " distortion coefficients, needs 0, 4 or 5");
   }
   PlaneDistortion::Coefficients c;
@@ -21,12 +21,12 @@ PlaneDistortion::Coefficients plumbBobCoefficients(const std::vector<double>& d)
 PlaneDistortion::Coefficients rationalCoefficients(const std::vector<double>& d) {
   const std::size_t n = d.size();
   if (n != 8 && n != 12 && n != 14) {
-    throw std::invalid_argument("calibration: rational_polynomial has " + std::to_string(n) +
+    throw std::invalid_argument("rational_polynomial has " + std::to_string(n) +
                                 " distortion coefficients, needs 8 (or 12 or 14 with zeros after the 8th)");
   }
   for (std::size_t i = 8; i < n; ++i) {
     if (d[i] == 0.0) continue;
-    throw std::invalid_argument("calibration: rational_polynomial has " + std::to_string(d[i]) +
+    throw std::invalid_argument("rational_polynomial has " + std::to_string(d[i]) +
                                 " as distortion coefficient " + std::to_string(i) +
                                 "; the thin prism (s1..s4) and tilt of OpenCV are not supported, only zeros");
   }

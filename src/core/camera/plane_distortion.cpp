@@ -4,7 +4,7 @@
 
 #include <Eigen/LU>
 
-#include "camera/increasing_root.h"
+#include "camera/monotonic_root.h"
 
 namespace tet_line_tracker {
 namespace {
@@ -35,7 +35,7 @@ double radialSlope(const PlaneDistortion::Coefficients& c, double r) {
 PlaneDistortion::PlaneDistortion(const Coefficients& coefficients)
     : c_(coefficients),
       max_radius_(
-          endOfIncrease([&](double r) { return radialSlope(coefficients, r); }, 0.01, kLargestRadius)),
+          endOfMonotonicRange([&](double r) { return radialSlope(coefficients, r); }, 0.01, kLargestRadius)),
       none_(c_.k1 == 0.0 && c_.k2 == 0.0 && c_.p1 == 0.0 && c_.p2 == 0.0 && c_.k3 == 0.0 && c_.k4 == 0.0 &&
             c_.k5 == 0.0 && c_.k6 == 0.0) {}
 
@@ -56,7 +56,7 @@ std::optional<Eigen::Vector2d> PlaneDistortion::undistort(const Eigen::Vector2d&
   // tangential part left to find, and cannot run to another branch.
   const double distorted_radius = distorted.norm();
   if (!(distorted_radius < kLargestRadius)) return std::nullopt;
-  const double radius = solveIncreasing(
+  const double radius = solveMonotonic(
       [this](double r) {
         const ValueAndSlope factor = radialFactor(c_, r * r);
         return ValueAndSlope{r * factor.value, factor.value + 2.0 * r * r * factor.slope};

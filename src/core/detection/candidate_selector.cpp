@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "geometry/clamp.h"
+
 namespace tet_line_tracker {
 
 void CandidateSelector::start(int width, int height, const std::vector<LineSegment>& candidates) {
@@ -17,13 +19,13 @@ void CandidateSelector::start(int width, int height, const std::vector<LineSegme
 
 template <class Visit>
 void CandidateSelector::visitCells(const LineSegment& line, const Visit& visit) const {
-  const int steps = 2 + static_cast<int>(2.0F * line.length() / cell_px_);
+  const int steps = 2 + static_cast<int>(clampOrLow(2.0F * line.length() / cell_px_, 0.0F, 1e4F));
   const float share = line.length() / (static_cast<float>(steps) * cell_px_);
   for (int i = 0; i < steps; ++i) {
     const Eigen::Vector2f place =
         line.at((static_cast<float>(i) + 0.5F) / static_cast<float>(steps)).cwiseProduct(cells_per_px_);
-    const int column = std::clamp(static_cast<int>(place.x()), 0, kColumns - 1);
-    const int row = std::clamp(static_cast<int>(place.y()), 0, kRows - 1);
+    const int column = static_cast<int>(clampOrLow(place.x(), 0.0F, kColumns - 1));
+    const int row = static_cast<int>(clampOrLow(place.y(), 0.0F, kRows - 1));
     visit(static_cast<std::size_t>(row * kColumns + column), share);
   }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "geometry/clamp.h"
 #include "kernels/kernels.h"
 
 namespace tet_line_tracker {
@@ -120,7 +121,8 @@ void EdgeDetector::growOneWay(const Axis& axis, int anchor_t, int step, float si
   std::size_t committed = points_.size();
   for (int t = anchor_t + step; t >= first && t < axis.size_along - first; t += step) {
     const float predicted = fit.at(static_cast<float>(t));
-    if (!(predicted >= static_cast<float>(first))) break;
+    // Written so that NaN fails, and before the cast, so that a steep fit does.
+    if (!(predicted >= static_cast<float>(first) && predicted < static_cast<float>(axis.size_across))) break;
     const int o = cvRound(predicted);
     if (o >= axis.size_across - first) break;
     std::ptrdiff_t i = t * axis.along + o * axis.across;
@@ -143,7 +145,8 @@ void EdgeDetector::growOneWay(const Axis& axis, int anchor_t, int step, float si
         const int bend = 2 * m - before - after;
         place = static_cast<float>(peak) +
                 (bend > 0 ? 0.5F * static_cast<float>(after - before) / static_cast<float>(bend) : 0.0F);
-        hit = std::abs(place - predicted) <= kMaxResidual && alongNormal(axis, i, sign, fit.slope);
+        hit = std::abs(place - predicted) <= kMaxResidual &&
+              alongNormal(axis, i, sign, fit.slopeAt(static_cast<float>(t)));
       }
     }
     if (!hit) {
@@ -168,7 +171,7 @@ void EdgeDetector::growOneWay(const Axis& axis, int anchor_t, int step, float si
   }
   if (committed < points_.size()) {
     points_.resize(committed);
-    fit = Fit();
+    fit = fit.emptied();
     for (const RidgePoint& point : points_) fit.add(point);
   }
   fit.update(prior_slope, kPriorWeight);
@@ -176,7 +179,8 @@ void EdgeDetector::growOneWay(const Axis& axis, int anchor_t, int step, float si
 
 void EdgeDetector::markLine(const Axis& axis, const Fit& fit, float begin, float end) {
   for (int t = static_cast<int>(begin); t <= static_cast<int>(end); ++t) {
-    const int o = std::clamp(cvRound(fit.at(static_cast<float>(t))), 1, axis.size_across - 2);
+    const int o =
+        cvRound(clampOrLow(fit.at(static_cast<float>(t)), 1.0F, static_cast<float>(axis.size_across - 2)));
     const std::ptrdiff_t i = t * axis.along + o * axis.across;
     for (const std::ptrdiff_t k : {i - axis.across, i, i + axis.across}) {
       gradient_.magnitude()[k] |= kTaken | kTried;
@@ -184,18 +188,41 @@ void EdgeDetector::markLine(const Axis& axis, const Fit& fit, float begin, float
   }
 }
 
-void EdgeDetector::markTracked(const LineSegment& line) {
-  const Eigen::Vector2f way = line.end - line.start;
-  const bool along_x = std::abs(way.x()) >= std::abs(way.y());
-  const Axis axis = axisOf(along_x);
-  const Eigen::Vector2f middle = line.middle();
-  Fit fit;
-  fit.slope = along_x ? way.y() / way.x() : way.x() / way.y();
-  fit.mean_t = along_x ? middle.x() : middle.y();
-  fit.mean_o = along_x ? middle.y() : middle.x();
-  const float half = 0.5F * std::abs(along_x ? way.x() : way.y());
+void EdgeDetector::markTracked(const LineCurve& line) {
+  // A curve in pieces that are straight to a pixel.
+  const int pieces = line.bend.isStraight() ? 1 : 4;
+  for (int piece = 0; piece < pieces; ++piece) {
+    const Eigen::Vector2f start = line.at(static_cast<float>(piece) / static_cast<float>(pieces));
+    const Eigen::Vector2f end = line.at(static_cast<float>(piece + 1) / static_cast<float>(pieces));
+    const Eigen::Vector2f way = end - start;
+    const bool along_x = std::abs(way.x()) >= std::abs(way.y());
+    const Axis axis = axisOf(along_x);
+    const Eigen::Vector2f middle = 0.5F * (start + end);
+    Fit fit;
+    fit.slope = along_x ? way.y() / way.x() : way.x() / way.y();
+    fit.mean_t = along_x ? middle.x() : middle.y();
+    fit.mean_o = along_x ? middle.y() : middle.x();
+    const float half = 0.5F * std::abs(along_x ? way.x() : way.y());
+    const auto last = static_cast<float>(axis.size_along - 1);
+    markLine(axis, fit, clampOrLow(fit.mean_t - half, 0.0F, last), clampOrLow(fit.mean_t + half, 0.0F, last));
+  }
+}
+
+float EdgeDetector::lensCurvature(const Axis& axis, float t, float o, float slope) const {
+  if (lens_ == nullptr || lens_->isStraight()) return 0.0F;
+  // From the sagitta of a piece that lies in the image.
+  constexpr float kReach = 50.0F;
   const auto last = static_cast<float>(axis.size_along - 1);
-  markLine(axis, fit, std::clamp(fit.mean_t - half, 0.0F, last), std::clamp(fit.mean_t + half, 0.0F, last));
+  const float begin = std::max(t - kReach, 0.0F);
+  const float end = std::min(t + kReach, last);
+  const auto point = [&](float at) -> Eigen::Vector2f {
+    const float beside = o + slope * (at - t);
+    return axis.along_x ? Eigen::Vector2f(at, beside) : Eigen::Vector2f(beside, at);
+  };
+  const LineSegment piece{point(begin), point(end)};
+  const float sagitta = lens_->between(piece).offset(0.5F);
+  const float normal_across = axis.along_x ? piece.normal().y() : piece.normal().x();
+  return -8.0F * sagitta / (normal_across * (end - begin) * (end - begin));
 }
 
 void EdgeDetector::markTried(const Axis& axis) {
@@ -223,6 +250,8 @@ void EdgeDetector::drawLine(const Anchor& anchor, float min_length, std::vector<
   points_.clear();
   points_.push_back({static_cast<float>(anchor_t), static_cast<float>(anchor_o)});
   Fit fit;
+  fit.anchor = static_cast<float>(anchor_t);
+  fit.curvature = lensCurvature(axis, fit.anchor, static_cast<float>(anchor_o), prior_slope);
   fit.add(points_.back());
   fit.update(prior_slope, kPriorWeight);
   growOneWay(axis, anchor_t, 1, sign, prior_slope, fit);
@@ -237,7 +266,7 @@ void EdgeDetector::drawLine(const Anchor& anchor, float min_length, std::vector<
   const auto steps = end - begin + 1.0F;
   bool holds = length >= min_length && static_cast<float>(points_.size()) >= kMinDensity * steps;
   if (holds) {
-    Fit exact;
+    Fit exact = fit.emptied();
     for (std::size_t k = 1; k < points_.size(); ++k) exact.add(points_[k]);
     exact.update(0.0F, 0.0F);
     double squares = 0.0;
@@ -268,7 +297,8 @@ void EdgeDetector::find(const cv::Mat& gray, float min_length, const DetectionHi
   gradient_.compute(gray);
   anchor_threshold_ = anchorThreshold(gradient_.levels(gray));
   ridge_threshold_ = static_cast<std::int16_t>(kRidgeShare * static_cast<float>(anchor_threshold_));
-  for (const LineSegment& line : hints.tracked) markTracked(line);
+  lens_ = hints.lens;
+  for (const LineCurve& line : hints.tracked) markTracked(line);
   collectAnchors(min_length, hints.mask);
   // Spread over the image and over the lines in every pass: long lines, which have many anchors, come early.
   for (std::size_t pass = 0; pass < kPasses; ++pass) {

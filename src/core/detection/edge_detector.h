@@ -36,17 +36,30 @@ class EdgeDetector : public LineDetector {
   struct RidgePoint {
     float t, o;
   };
-  /// Line o = mean_o + slope (t - mean_t), fitted by running sums relative to the anchor.
+  /// Line o = mean_o + slope (t - mean_t) + curvature / 2 (t - anchor)^2, fitted by running sums. The
+  /// curvature is the lens's.
   struct Fit {
     double n{0}, t{0}, o{0}, tt{0}, to{0};
     float slope{0.0F}, mean_t{0.0F}, mean_o{0.0F};
+    float curvature{0.0F}, anchor{0.0F};
+
+    /// The same curvature without points.
+    Fit emptied() const {
+      Fit fit;
+      fit.curvature = curvature;
+      fit.anchor = anchor;
+      return fit;
+    }
+    float bend(float along) const { return 0.5F * curvature * (along - anchor) * (along - anchor); }
+    float slopeAt(float along) const { return slope + curvature * (along - anchor); }
 
     void add(const RidgePoint& point) {
+      const double straight = static_cast<double>(point.o) - static_cast<double>(bend(point.t));
       n += 1.0;
       t += point.t;
-      o += point.o;
+      o += straight;
       tt += static_cast<double>(point.t) * point.t;
-      to += static_cast<double>(point.t) * point.o;
+      to += static_cast<double>(point.t) * straight;
     }
     /// Solves for the line; `prior_weight` [px^2] draws its slope to `prior_slope` while there are few
     /// points.
@@ -58,7 +71,7 @@ class EdgeDetector : public LineDetector {
       mean_t = static_cast<float>(t * one_over_n);
       mean_o = static_cast<float>(o * one_over_n);
     }
-    float at(float along) const { return mean_o + slope * (along - mean_t); }
+    float at(float along) const { return mean_o + slope * (along - mean_t) + bend(along); }
   };
 
   void find(const cv::Mat& gray, float min_length, const DetectionHints& hints,
@@ -81,7 +94,9 @@ class EdgeDetector : public LineDetector {
   void drawLine(const Anchor& anchor, float min_length, std::vector<LineSegment>& lines);
   void growOneWay(const Axis& axis, int anchor_t, int step, float sign, float prior_slope, Fit& fit);
   /// Takes the place of a line that is known, so that it is not found again.
-  void markTracked(const LineSegment& line);
+  void markTracked(const LineCurve& line);
+  /// Curvature of a straight edge of space through an anchor [1 / px].
+  float lensCurvature(const Axis& axis, float t, float o, float slope) const;
   void markLine(const Axis& axis, const Fit& fit, float begin, float end);
   void markTried(const Axis& axis);
 
@@ -91,6 +106,7 @@ class EdgeDetector : public LineDetector {
   std::vector<std::uint8_t> peaks_, wanted_;  // scratch of one row
   std::vector<Anchor> anchors_;
   std::vector<RidgePoint> points_;
+  const LensBend* lens_{nullptr};  ///< of the image at hand
 };
 
 }  // namespace tet_line_tracker

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/clamp.h"
+
 namespace tet_line_tracker {
 
 namespace {
@@ -17,8 +19,8 @@ int leftMinusRight(const cv::Mat& gray, const LineSegment& line) {
   constexpr int kPoints = 16;
   constexpr float kAside = 2.0F;  // [px], beyond the blur of a sharp edge
   const auto value = [&gray](const Eigen::Vector2f& p) {
-    const int x = std::clamp(static_cast<int>(std::lround(p.x())), 0, gray.cols - 1);
-    const int y = std::clamp(static_cast<int>(std::lround(p.y())), 0, gray.rows - 1);
+    const int x = static_cast<int>(std::lround(clampOrLow(p.x(), 0.0F, static_cast<float>(gray.cols - 1))));
+    const int y = static_cast<int>(std::lround(clampOrLow(p.y(), 0.0F, static_cast<float>(gray.rows - 1))));
     return static_cast<int>(gray.at<uchar>(y, x));
   };
   const Eigen::Vector2f aside = kAside * line.normal();

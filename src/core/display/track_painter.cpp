@@ -8,6 +8,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "geometry/clamp.h"
+
 namespace tet_line_tracker {
 namespace {
 
@@ -15,8 +17,10 @@ namespace {
 constexpr int kShift = 4;
 
 cv::Point fixedPoint(const Eigen::Vector2f& point) {
-  const float scale = 1 << kShift;
-  return {cvRound(point.x() * scale), cvRound(point.y() * scale)};
+  constexpr float kScale = 1 << kShift;
+  constexpr float kFarOutside = 1e6F;
+  return {cvRound(clampOrLow(point.x() * kScale, -kFarOutside, kFarOutside)),
+          cvRound(clampOrLow(point.y() * kScale, -kFarOutside, kFarOutside))};
 }
 
 cv::Scalar bgrOfAge(std::uint32_t age) {
@@ -63,8 +67,10 @@ void drawId(const TrackedLine& line, const cv::Scalar& colour, cv::Mat& bgr) {
   const float away = 0.5F * std::hypot(static_cast<float>(extent.width), static_cast<float>(extent.height)) +
                      3.0F * static_cast<float>(drawingScale(bgr));
   const Eigen::Vector2f centre = line.segment.middle() + away * line.segment.normal();
-  drawText(text, {cvRound(centre.x()) - extent.width / 2, cvRound(centre.y()) + extent.height / 2}, size,
-           colour, bgr);
+  drawText(text,
+           {cvRound(clampOrLow(centre.x(), -1e6F, 1e6F)) - extent.width / 2,
+            cvRound(clampOrLow(centre.y(), -1e6F, 1e6F)) + extent.height / 2},
+           size, colour, bgr);
 }
 
 /// Colours with their ages, and what the image holds, along the lower border.

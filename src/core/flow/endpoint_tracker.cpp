@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "flow/patch_flow.h"
+#include "geometry/clamp.h"
 #include "image/patch_reader.h"
 
 namespace tet_line_tracker {
@@ -52,7 +53,7 @@ LineTemplate& LineTemplate::operator=(LineTemplate&&) noexcept = default;
 EndpointTracker::EndpointTracker(const EndpointTrackerParameters& parameters, const Layout& layout)
     : parameters_(checked(parameters)), layout_(layout) {}
 
-void EndpointTracker::extractTemplate(const ImagePyramid& first, const LineSegment& segment,
+void EndpointTracker::extractTemplate(const ImagePyramid& first, const LineCurve& line,
                                       LineTemplate& patches) const {
   const kernels::PatchShape shape = kernels::PatchShape::ofSide(parameters_.window_px);
   const std::size_t level_count =
@@ -66,12 +67,13 @@ void EndpointTracker::extractTemplate(const ImagePyramid& first, const LineSegme
     const float scale = ImagePyramid::scale(static_cast<int>(j));
     PatchRow& row = patches.content_->levels[j];
     const float spacings =
-        std::ceil(scale * segment.length() / static_cast<float>(parameters_.patch_spacing));
-    row.count = std::clamp(static_cast<std::size_t>(1.0F + spacings), std::size_t{2}, layout_.max_patches);
+        std::ceil(scale * line.chord.length() / static_cast<float>(parameters_.patch_spacing));
+    row.count =
+        static_cast<std::size_t>(clampOrLow(1.0F + spacings, 2.0F, static_cast<float>(layout_.max_patches)));
     for (std::size_t i = 0; i < row.count; ++i) {
       Patch& patch = row.patches[i];
       patch.fraction = static_cast<float>(i) / static_cast<float>(row.count - 1);
-      const Eigen::Vector2f centre = scale * segment.at(patch.fraction);
+      const Eigen::Vector2f centre = scale * line.at(patch.fraction);
       kernels::active().makeTemplate(reader.patchWithRim(first.level(static_cast<int>(j)), centre), shape,
                                      layout_.zero_mean, &patch.reference);
     }
@@ -79,7 +81,7 @@ void EndpointTracker::extractTemplate(const ImagePyramid& first, const LineSegme
 }
 
 EndpointFlow EndpointTracker::track(const LineTemplate& patches, const ImagePyramid& second,
-                                    const LineSegment& expected) const {
+                                    const LineCurve& expected) const {
   EndpointFlow flow;
   if (!patches.content_) return flow;
   const LineTemplate::Content& content = *patches.content_;
@@ -87,18 +89,19 @@ EndpointFlow EndpointTracker::track(const LineTemplate& patches, const ImagePyra
     throw std::invalid_argument("the template has patches of " + std::to_string(content.shape.side) +
                                 " px, the tracker needs window_px " + std::to_string(parameters_.window_px));
   }
-  flow.segment = expected;
+  flow.segment = expected.chord;
   const int coarsest = std::min(second.levels(), static_cast<int>(content.levels.size())) - 1;
   const int finest = std::min(coarsest, layout_.finest_level);
   for (int j = coarsest; j >= finest; --j) {
     const float scale = ImagePyramid::scale(j);
-    LineSegment at_level{scale * flow.segment.start, scale * flow.segment.end};
+    LineCurve at_level({scale * flow.segment.start, scale * flow.segment.end}, expected.bend);
+    for (float& coefficient : at_level.bend.c) coefficient *= scale;
     flow.status = trackOnLevel(content.levels[static_cast<std::size_t>(j)], second.level(j), j == finest,
                                at_level, flow.residual);
     // A coarse level shows little of the texture: its residual decides nothing.
     const bool poor_but_coarse = flow.status == Status::kHighResidual && j > finest;
     if (flow.status != Status::kTracked && !poor_but_coarse) return flow;
-    flow.segment = {at_level.start / scale, at_level.end / scale};
+    flow.segment = {at_level.chord.start / scale, at_level.chord.end / scale};
   }
   return flow;
 }

@@ -33,8 +33,10 @@ class JointLevel {
         bounds_(ImageBounds::ofImage(image.cols, image.rows)),
         reader_(shape_) {}
 
-  Status track(bool finest, LineSegment& segment, float& residual) {
+  Status track(bool finest, LineCurve& line, float& residual) {
+    LineSegment& segment = line.chord;
     const LineSegment expected = segment;
+    placePatches(line);
     const float last_step = finest ? kFineStep : kCoarseStep;
     for (int iteration = 1;; ++iteration) {
       if (!matchPatches(segment)) return Status::kOutside;
@@ -83,12 +85,21 @@ class JointLevel {
            (pixels_ * match.gain);
   }
 
+  /// From the chord to the curve at each patch. The line turns so little on a level that they stay as they
+  /// are.
+  void placePatches(const LineCurve& line) {
+    for (std::size_t i = 0; i < row_.count; ++i) {
+      const float fraction = row_.patches[i].fraction;
+      from_chord_[i] = line.at(fraction) - line.chord.at(fraction);
+    }
+  }
+
   /// False when no patch is in the image; otherwise the line goes on with those that are.
   bool matchPatches(const LineSegment& segment) {
     count_ = 0;
     for (std::size_t i = 0; i < row_.count; ++i) {
       const Patch& patch = row_.patches[i];
-      const Eigen::Vector2f centre = segment.at(patch.fraction);
+      const Eigen::Vector2f centre = segment.at(patch.fraction) + from_chord_[i];
       if (!bounds_.contains(centre)) continue;
       matches_[count_] = matchAt(centre, patch, count_);
       ++count_;
@@ -117,6 +128,7 @@ class JointLevel {
   float max_movement_;
   ImageBounds bounds_;
   PatchReader reader_;
+  std::array<Eigen::Vector2f, kMaxPatches> from_chord_;
   std::array<PatchMatch, kMaxPatches> matches_;
   std::size_t count_{0};
   /// Of the patches in the second image, less the means of their templates.
@@ -132,9 +144,9 @@ class JointFlow : public EndpointTracker {
                          parameters.gain_and_offset}) {}
 
  private:
-  Status trackOnLevel(const PatchRow& row, const cv::Mat& image, bool finest, LineSegment& segment,
+  Status trackOnLevel(const PatchRow& row, const cv::Mat& image, bool finest, LineCurve& line,
                       float& residual) const override {
-    return JointLevel(parameters(), row, image).track(finest, segment, residual);
+    return JointLevel(parameters(), row, image).track(finest, line, residual);
   }
 };
 

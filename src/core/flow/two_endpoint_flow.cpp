@@ -17,8 +17,9 @@ class TwoEndpointFlow : public EndpointTracker {
       : EndpointTracker(parameters, {0, 2, false}) {}
 
  private:
-  Status trackOnLevel(const PatchRow& row, const cv::Mat& image, bool, LineSegment& segment,
+  Status trackOnLevel(const PatchRow& row, const cv::Mat& image, bool, LineCurve& line,
                       float& residual) const override {
+    LineSegment& segment = line.chord;
     float start_residual = 0.0F;
     float end_residual = 0.0F;
     const Status start = trackEndpoint(row.patches.front(), image, segment.start, start_residual);

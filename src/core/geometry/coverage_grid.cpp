@@ -2,16 +2,18 @@
 
 #include <algorithm>
 
+#include "geometry/clamp.h"
+
 namespace tet_line_tracker {
 
 void CoverageGrid::add(const LineSegment& line) {
   // Steps of a quarter of the smaller cell side miss only corners that a line barely touches.
   const float cell = std::min(width_ / kColumns, height_ / kRows);
-  const int steps = 1 + static_cast<int>(4.0F * line.length() / cell);
+  const int steps = 1 + static_cast<int>(clampOrLow(4.0F * line.length() / cell, 0.0F, 1e4F));
   for (int i = 0; i <= steps; ++i) {
     const Eigen::Vector2f p = line.at(static_cast<float>(i) / static_cast<float>(steps));
-    const int column = std::clamp(static_cast<int>(p.x() * kColumns / width_), 0, kColumns - 1);
-    const int row = std::clamp(static_cast<int>(p.y() * kRows / height_), 0, kRows - 1);
+    const int column = static_cast<int>(clampOrLow(p.x() * kColumns / width_, 0.0F, kColumns - 1));
+    const int row = static_cast<int>(clampOrLow(p.y() * kRows / height_, 0.0F, kRows - 1));
     crossed_.set(static_cast<std::size_t>(row * kColumns + column));
   }
 }

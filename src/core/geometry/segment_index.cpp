@@ -3,40 +3,60 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tet_line_tracker {
+#include "geometry/clamp.h"
 
-bool areDuplicates(const LineSegment& a, const LineSegment& b, const DuplicateCriteria& criteria) {
-  // The cheap tests first: nearly all pairs fail them.
-  const Eigen::Vector2f u = a.end - a.start;
-  const Eigen::Vector2f v = b.end - b.start;
+namespace tet_line_tracker {
+namespace {
+
+/// Tangent of the angle between a bent line and its chord, at most.
+constexpr float kMaxBendSlope = 0.5F;
+
+}  // namespace
+
+bool areDuplicates(const LineCurve& a, const LineCurve& b, const DuplicateCriteria& criteria) {
+  const Eigen::Vector2f u = a.chord.end - a.chord.start;
+  const Eigen::Vector2f v = b.chord.end - b.chord.start;
+  const bool a_longer = u.squaredNorm() >= v.squaredNorm();
+  const LineCurve& longer = a_longer ? a : b;
+  const LineCurve& shorter = a_longer ? b : a;
   const float dot = u.dot(v);
   const float cross = u.x() * v.y() - u.y() * v.x();
-  if (dot <= 0.0F || std::abs(cross) > criteria.max_tangent * dot) return false;
-  const bool a_longer = u.squaredNorm() >= v.squaredNorm();
-  const LineSegment& longer = a_longer ? a : b;
-  const LineSegment& shorter = a_longer ? b : a;
-  if (std::abs(longer.distance(shorter.middle())) > criteria.max_distance) return false;
-  return overlap(shorter, longer) >= criteria.min_overlap;
+  if (dot <= 0.0F) return false;
+  // The cheap test first: nearly all pairs fail it.
+  if (longer.bend.isStraight()) {
+    if (std::abs(cross) > criteria.max_tangent * dot) return false;
+  } else {
+    if (std::abs(cross) > (criteria.max_tangent + kMaxBendSlope) * dot) return false;
+    // The shorter one against the tangent of the longer one beside it. Its normal is to the left of its
+    // direction: a curve that rises towards it turns left on screen, where cross is negative.
+    const float length = longer.chord.length();
+    const float place = std::clamp(longer.chord.along(shorter.chord.middle()) / length, 0.0F, 1.0F);
+    const float slope = longer.bend.slope(place) / length;
+    const float from_longer = (a_longer ? -cross : cross) / dot;
+    if (std::abs(from_longer - slope) > criteria.max_tangent) return false;
+  }
+  if (std::abs(longer.distance(shorter.at(0.5F))) > criteria.max_distance) return false;
+  return overlap(shorter.chord, longer.chord) >= criteria.min_overlap;
 }
 
 void SegmentIndex::clear() {
-  segments_.clear();
+  lines_.clear();
   next_.clear();
   heads_.fill(kNone);
 }
 
-void SegmentIndex::add(const LineSegment& segment) {
-  int& head = heads_[static_cast<std::size_t>(sectorOf(segment))];
+void SegmentIndex::add(const LineCurve& line) {
+  int& head = heads_[static_cast<std::size_t>(sectorOf(line.chord))];
   next_.push_back(head);
-  head = static_cast<int>(segments_.size());
-  segments_.push_back(segment);
+  head = static_cast<int>(lines_.size());
+  lines_.push_back(line);
 }
 
-bool SegmentIndex::containsDuplicateOf(const LineSegment& segment) const {
-  const int sector = sectorOf(segment);
+bool SegmentIndex::containsDuplicateOf(const LineCurve& line) const {
+  const int sector = sectorOf(line.chord);
   for (const int near : {sector, (sector + 1) % kSectors, (sector + kSectors - 1) % kSectors}) {
     for (int i = heads_[static_cast<std::size_t>(near)]; i != kNone; i = next_[static_cast<std::size_t>(i)]) {
-      if (areDuplicates(segment, segments_[static_cast<std::size_t>(i)], criteria_)) return true;
+      if (areDuplicates(line, lines_[static_cast<std::size_t>(i)], criteria_)) return true;
     }
   }
   return false;
@@ -48,7 +68,7 @@ int SegmentIndex::sectorOf(const LineSegment& segment) {
   const float sum = std::abs(d.x()) + std::abs(d.y());
   const float share = sum > 0.0F ? d.y() / sum : 0.0F;
   const float angle = d.x() >= 0.0F ? 1.0F + share : 3.0F - share;
-  return std::clamp(static_cast<int>(0.25F * static_cast<float>(kSectors) * angle), 0, kSectors - 1);
+  return static_cast<int>(clampOrLow(0.25F * static_cast<float>(kSectors) * angle, 0.0F, kSectors - 1));
 }
 
 }  // namespace tet_line_tracker

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "tet_line_tracker/geometry/line_segment.h"
+#include "tet_line_tracker/geometry/line_bend.h"
 
 namespace tet_line_tracker {
 
@@ -16,17 +16,17 @@ struct DuplicateCriteria {
 
 /// True when two segments lie on the same edge: nearly parallel, nearly collinear, side by side. A dark line
 /// on bright ground has two edges of opposite direction close together: those stay two lines.
-bool areDuplicates(const LineSegment& a, const LineSegment& b, const DuplicateCriteria& criteria);
+bool areDuplicates(const LineCurve& a, const LineCurve& b, const DuplicateCriteria& criteria);
 
-/// A set of segments, sorted by direction, that finds duplicates of another one quickly.
+/// A set of lines, sorted by direction, that finds duplicates of another one quickly.
 class SegmentIndex {
  public:
   explicit SegmentIndex(const DuplicateCriteria& criteria) : criteria_(criteria) { heads_.fill(kNone); }
 
   void clear();
-  void add(const LineSegment& segment);
-  /// True when `segment` is a duplicate of one that was added.
-  bool containsDuplicateOf(const LineSegment& segment) const;
+  void add(const LineCurve& line);
+  /// True when `line` is a duplicate of one that was added.
+  bool containsDuplicateOf(const LineCurve& line) const;
 
  private:
   static constexpr int kSectors = 16;
@@ -35,7 +35,7 @@ class SegmentIndex {
   static int sectorOf(const LineSegment& segment);
 
   DuplicateCriteria criteria_;
-  std::vector<LineSegment> segments_;
+  std::vector<LineCurve> lines_;
   std::vector<int> next_;            ///< of each segment, in the same sector
   std::array<int, kSectors> heads_;  ///< last segment of each sector of directions
 };

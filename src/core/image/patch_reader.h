@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
+#include "geometry/clamp.h"
 #include "kernels/kernels.h"
 
 namespace tet_line_tracker {
@@ -31,12 +32,12 @@ class PatchReader {
   static constexpr int kMaxRows = kernels::kMaxPatchSide + 3;
 
   kernels::PatchPlace place(const cv::Mat& image, const Eigen::Vector2f& centre, int side) {
-    // Far outside the whole patch is border anyway; the bounds keep the conversion to int defined. Truncation
-    // of a positive number instead of std::floor, which is slow without SSE4.
+    // Far outside the whole patch is border anyway; the bounds keep the conversion to int defined, also of
+    // NaN. Truncation of a positive number instead of std::floor, which is slow without SSE4.
     constexpr int kShift = 1 << 12;
     const float half = 0.5F * static_cast<float>(side - 1);
-    const float left = std::clamp(centre.x() - half, -static_cast<float>(kShift), 1e6F);
-    const float top = std::clamp(centre.y() - half, -static_cast<float>(kShift), 1e6F);
+    const float left = clampOrLow(centre.x() - half, -static_cast<float>(kShift), 1e6F);
+    const float top = clampOrLow(centre.y() - half, -static_cast<float>(kShift), 1e6F);
     const int x = static_cast<int>(left + static_cast<float>(kShift)) - kShift;
     const int y = static_cast<int>(top + static_cast<float>(kShift)) - kShift;
     kernels::PatchPlace place{};

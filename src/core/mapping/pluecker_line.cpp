@@ -3,18 +3,20 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
+
+#include "geometry/so3.h"
 
 namespace tet_line_tracker {
 namespace {
 
+/// The orthonormal representation of Bartoli and Sturm.
 struct OrthonormalLine {
   Eigen::Matrix3d axes;  ///< of moment, direction and their normal
   double moment;         ///< lengths of both, of unit length together
   double direction;
 };
 
-OrthonormalLine orthonormal(const PlueckerLine& line) {
+OrthonormalLine toOrthonormal(const PlueckerLine& line) {
   OrthonormalLine result;
   const double distance = line.moment.norm();
   result.axes.col(0) = line.moment / distance;
@@ -32,7 +34,7 @@ struct ViewResidual {
   Eigen::Matrix<double, 2, 4> jacobian;
 };
 
-ViewResidual residualOf(const PlueckerLine& line, const LineView& view) {
+ViewResidual computeResidual(const PlueckerLine& line, const LineView& view) {
   const Eigen::Vector3d normal = line.planeThrough(view.centre);
   const double distance = normal.norm();
   const Eigen::Vector3d unit = normal / distance;
@@ -54,24 +56,24 @@ ViewResidual residualOf(const PlueckerLine& line, const LineView& view) {
   return residual;
 }
 
-/// Huber, on the length of both residuals of a view: cost and weight.
+/// Huber loss of the norm of a view's two residuals: cost and weight.
 struct RobustCost {
   double cost;
   double weight;
 };
 
-RobustCost robust(const Eigen::Vector2d& residual) {
-  constexpr double kBend = 2.0;  // standard deviations
+RobustCost huber(const Eigen::Vector2d& residual) {
+  constexpr double kThreshold = 2.0;  // standard deviations
   const double length = residual.norm();
-  if (length <= kBend) return {0.5 * length * length, 1.0};
-  return {kBend * (length - 0.5 * kBend), kBend / length};
+  if (length <= kThreshold) return {0.5 * length * length, 1.0};
+  return {kThreshold * (length - 0.5 * kThreshold), kThreshold / length};
 }
 
-double costOf(const PlueckerLine& line, const std::vector<LineView>& views) {
+double computeCost(const PlueckerLine& line, const std::vector<LineView>& views) {
   double cost = 0.0;
   for (const LineView& view : views) {
     const Eigen::Vector3d unit = line.planeThrough(view.centre).normalized();
-    cost += robust(Eigen::Vector2d(view.start_ray.dot(unit), view.end_ray.dot(unit)) / view.sigma).cost;
+    cost += huber(Eigen::Vector2d(view.start_ray.dot(unit), view.end_ray.dot(unit)) / view.sigma).cost;
   }
   return cost;
 }
@@ -79,18 +81,15 @@ double costOf(const PlueckerLine& line, const std::vector<LineView>& views) {
 }  // namespace
 
 PlueckerLine PlueckerLine::moved(const Eigen::Vector4d& step) const {
-  const OrthonormalLine line = orthonormal(*this);
-  const Eigen::Vector3d turn = step.head<3>();
-  const double angle = turn.norm();
-  Eigen::Matrix3d axes = line.axes;
-  if (angle > 0.0) axes = line.axes * Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+  const OrthonormalLine line = toOrthonormal(*this);
+  const Eigen::Matrix3d axes = line.axes * so3Exp(step.head<3>()).toRotationMatrix();
   const double moment = line.moment * std::cos(step(3)) - line.direction * std::sin(step(3));
   const double direction = line.moment * std::sin(step(3)) + line.direction * std::cos(step(3));
   return {axes.col(1), axes.col(0) * (moment / direction)};
 }
 
 Eigen::Matrix<double, 6, 4> PlueckerLine::derivatives() const {
-  const OrthonormalLine line = orthonormal(*this);
+  const OrthonormalLine line = toOrthonormal(*this);
   const Eigen::Vector3d u1 = line.axes.col(0);
   const Eigen::Vector3d u2 = line.axes.col(1);
   const Eigen::Vector3d u3 = line.axes.col(2);
@@ -118,7 +117,7 @@ std::optional<PlueckerLine> intersect(const LineView& a, const LineView& b) {
 std::optional<LineEstimate> refine(const PlueckerLine& initial, const std::vector<LineView>& views) {
   LineEstimate estimate;
   estimate.line = initial;
-  double cost = costOf(initial, views);
+  double cost = computeCost(initial, views);
   double damping = 1e-4;
   Eigen::Matrix4d hessian = Eigen::Matrix4d::Zero();
   constexpr int kMaxIterations = 30;
@@ -127,8 +126,8 @@ std::optional<LineEstimate> refine(const PlueckerLine& initial, const std::vecto
     hessian.setZero();
     Eigen::Vector4d gradient = Eigen::Vector4d::Zero();
     for (const LineView& view : views) {
-      const ViewResidual residual = residualOf(estimate.line, view);
-      const double weight = robust(residual.value).weight;
+      const ViewResidual residual = computeResidual(estimate.line, view);
+      const double weight = huber(residual.value).weight;
       hessian += weight * residual.jacobian.transpose() * residual.jacobian;
       gradient += weight * residual.jacobian.transpose() * residual.value;
     }
@@ -137,7 +136,7 @@ std::optional<LineEstimate> refine(const PlueckerLine& initial, const std::vecto
     const Eigen::Vector4d step = -damped.ldlt().solve(gradient);
     if (!step.allFinite()) return std::nullopt;
     const PlueckerLine next = estimate.line.moved(step);
-    const double next_cost = costOf(next, views);
+    const double next_cost = computeCost(next, views);
     if (next_cost <= cost) {
       const bool converged = cost - next_cost < 1e-9 * (1.0 + cost) && step.norm() < 1e-7;
       estimate.line = next;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <Eigen/Geometry>
+#include "geometry/so3.h"
 
 namespace tet_line_tracker {
 namespace {
@@ -12,7 +12,8 @@ constexpr std::size_t kMaxSamples = 4000;  // if nobody ever asks
 }  // namespace
 
 void GyroIntegrator::add(std::int64_t stamp_ns, const Eigen::Vector3d& angular_velocity) {
-  if (!angular_velocity.allFinite()) return;
+  // Written so that NaN fails, and a norm that overflows.
+  if (!(angular_velocity.norm() <= kMaxAngularVelocity)) return;
   if (!samples_.empty()) {
     const std::int64_t last = samples_.back().stamp_ns;
     if (stamp_ns < last - kMaxGapNs) {
@@ -31,7 +32,8 @@ std::optional<Eigen::Matrix3d> GyroIntegrator::rotation(std::int64_t from_ns, st
       samples_.back().stamp_ns < to_ns) {
     return std::nullopt;
   }
-  Eigen::Quaterniond turned = Eigen::Quaterniond::Identity();
+  // Of the IMU at the end of each piece, in its frame at `from_ns`.
+  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();
   for (std::size_t i = 0; i + 1 < samples_.size(); ++i) {
     const Sample& a = samples_[i];
     const Sample& b = samples_[i + 1];
@@ -41,15 +43,13 @@ std::optional<Eigen::Matrix3d> GyroIntegrator::rotation(std::int64_t from_ns, st
     if (b.stamp_ns - a.stamp_ns > kMaxGapNs) return std::nullopt;
     // The velocity in the middle of the piece, linear between the two samples.
     const double middle = 0.5 * static_cast<double>((begin - a.stamp_ns) + (end - a.stamp_ns));
-    const double share = middle / static_cast<double>(b.stamp_ns - a.stamp_ns);
+    const double fraction = middle / static_cast<double>(b.stamp_ns - a.stamp_ns);
     const Eigen::Vector3d velocity =
-        a.angular_velocity + share * (b.angular_velocity - a.angular_velocity) - bias;
-    const Eigen::Vector3d turn = velocity * (1e-9 * static_cast<double>(end - begin));
-    const double angle = turn.norm();
-    if (angle > 0.0) turned = turned * Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle));
+        a.angular_velocity + fraction * (b.angular_velocity - a.angular_velocity) - bias;
+    attitude = attitude * Eigen::Quaterniond(so3Exp(velocity * (1e-9 * static_cast<double>(end - begin))));
   }
-  // `turned` is the attitude of the later frame in the earlier one; directions go the other way.
-  return turned.conjugate().toRotationMatrix();
+  // Directions that stay in the world rotate the other way.
+  return attitude.conjugate().toRotationMatrix();
 }
 
 void GyroIntegrator::forgetBefore(std::int64_t stamp_ns) {

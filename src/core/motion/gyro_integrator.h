@@ -11,8 +11,9 @@ namespace tet_line_tracker {
 /// Integrates the angular velocities of a gyroscope between two stamps, interpolated at both ends.
 class GyroIntegrator {
  public:
-  /// Angular velocity in the IMU's frame [rad/s]. Samples that are not newer than the last one are ignored; a
-  /// jump back of more than kMaxGapNs starts anew (a bag played in a loop).
+  /// Angular velocity in the IMU's frame [rad/s]. Samples that are not newer than the last one, not
+  /// finite or faster than kMaxAngularVelocity are ignored; a jump back of more than kMaxGapNs starts anew (a
+  /// bag played in a loop).
   void add(std::int64_t stamp_ns, const Eigen::Vector3d& angular_velocity);
 
   /// Rotation that takes directions in the IMU's frame at `from_ns` to the same directions at `to_ns`;
@@ -24,6 +25,8 @@ class GyroIntegrator {
   void forgetBefore(std::int64_t stamp_ns);
 
   static constexpr std::int64_t kMaxGapNs = 100000000;
+  /// No camera turns at 160 revolutions per second, and no gyroscope measures it [rad/s].
+  static constexpr double kMaxAngularVelocity = 1000.0;
 
  private:
   struct Sample {

@@ -1,11 +1,12 @@
 #include "tet_line_tracker/motion/motion_prior.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Geometry>
-
+#include "camera/camera_models.h"
+#include "geometry/so3.h"
+#include "motion/gyro_bias.h"
 #include "motion/gyro_integrator.h"
 #include "motion/rotation_aligner.h"
 
@@ -16,31 +17,22 @@ constexpr int kCoarseLevel = 4;
 constexpr int kFineLevel = 3;
 constexpr int kCoarseIterations = 12;
 constexpr int kFineIterations = 6;
-constexpr int kBiasIterations = 3;
-
-/// The bias of a gyroscope is learned as a mean over about this share of an image each, up to this size
-/// [rad/s].
-constexpr float kBiasShare = 0.05F;
-constexpr float kMaxGyroBias = 0.1F;
 
 /// A prediction must make the images fit at least this much better than no motion does.
 constexpr float kMinImprovement = 0.9F;
 
-Eigen::Vector3f vectorOf(const Eigen::Matrix3d& rotation) {
-  const Eigen::AngleAxisd turn(rotation);
-  return (turn.angle() * turn.axis()).cast<float>();
-}
+/// The gyroscope's rotation, and one that was found from it, must fit at least this much better than the one
+/// that was found from the images alone.
+constexpr float kMinLead = 0.95F;
 
-Eigen::Matrix3d rotationOf(const Eigen::Vector3f& turn) {
-  const double angle = static_cast<double>(turn.norm());
-  if (angle == 0.0) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, turn.cast<double>() / angle).toRotationMatrix();
-}
+/// Gyroscope and images contradict each other when their rotations differ by more than this [rad]: parallax
+/// looks like a few milliradians from image to image.
+constexpr float kAgreement = 0.015F;
 
 }  // namespace
 
 double MotionPrediction::angle() const {
-  return Eigen::AngleAxisd(rotation).angle();
+  return so3Log(rotation).norm();
 }
 
 const char* MotionPrediction::sourceName() const {
@@ -61,16 +53,20 @@ class MotionPrior::Implementation {
   void setCamera(std::shared_ptr<const CameraModel> camera) {
     if (camera == camera_) return;
     camera_ = std::move(camera);
-    aligned_camera_.reset();
+    image_size_ = cv::Size();
   }
-  void setImuRotation(const Eigen::Matrix3d& camera_from_imu) { camera_from_imu_ = camera_from_imu; }
+  void setImuRotation(const Eigen::Matrix3d& camera_from_imu) {
+    if (camera_from_imu_ && *camera_from_imu_ != camera_from_imu) gyro_bias_.reset();
+    camera_from_imu_ = camera_from_imu;
+  }
+  Eigen::Vector3d gyroBias() const { return -gyro_bias_.value().cast<double>(); }
   void addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3d& velocity) {
     gyro_.add(stamp_ns, velocity);
   }
   void reset() {
-    coarse_.forget();
-    fine_.forget();
-    last_turn_.setZero();
+    coarse_.clearTemplate();
+    fine_.clearTemplate();
+    last_rotation_.setZero();
   }
   MotionPrediction predict(const ImagePyramid& pyramid, std::int64_t stamp_ns);
   LineSegment apply(const MotionPrediction& prediction, const LineSegment& segment,
@@ -78,96 +74,106 @@ class MotionPrior::Implementation {
 
  private:
   void prepareCamera(const ImagePyramid& pyramid);
-  std::optional<Eigen::Vector3f> gyroTurn(std::int64_t stamp_ns) const;
-  void learnGyroBias(const Eigen::Vector3f& measured, const Eigen::Vector3f& aligned, float interval_s);
-  Eigen::Vector3f imageTurn(const ImagePyramid& pyramid);
+  std::optional<Eigen::Vector3f> integrateGyro(std::int64_t stamp_ns) const;
+  Eigen::Vector3f alignImages(const ImagePyramid& pyramid);
+  /// Rotation from what the gyroscope `measured` and what the images alone have `seen`, whichever fits
+  /// better; nothing when they contradict each other. Learns the bias.
+  std::optional<Eigen::Vector3f> fuse(RotationAligner& aligner, const ImagePyramid& pyramid,
+                                      const Eigen::Vector3f& measured, Eigen::Vector3f seen, float max_cost,
+                                      float interval_s);
 
   MotionPriorParameters parameters_;
   std::shared_ptr<const CameraModel> camera_;
-  std::shared_ptr<const CameraModel> aligned_camera_;  ///< camera_, or the one assumed without calibration
+  std::shared_ptr<const CameraModel> lens_;  ///< camera_, or a pinhole without calibration
+  cv::Size image_size_;                      ///< that the aligners know
   std::optional<Eigen::Matrix3d> camera_from_imu_;
   GyroIntegrator gyro_;
   RotationAligner coarse_{kCoarseLevel};
   RotationAligner fine_{kFineLevel};
-  Eigen::Vector3f gyro_bias_{Eigen::Vector3f::Zero()};  ///< in the camera's optical frame [rad/s]
+  GyroBias gyro_bias_;  ///< of directions in the camera's optical frame, which rotate against the camera
   std::int64_t last_stamp_ns_{0};
-  Eigen::Vector3f last_turn_{Eigen::Vector3f::Zero()};
+  Eigen::Vector3f last_rotation_{Eigen::Vector3f::Zero()};
 };
 
 void MotionPrior::Implementation::prepareCamera(const ImagePyramid& pyramid) {
-  const cv::Mat& image = pyramid.level(0);
-  if (aligned_camera_ && aligned_camera_->calibration().width == image.cols &&
-      aligned_camera_->calibration().height == image.rows) {
-    return;
+  const cv::Size size = pyramid.level(0).size();
+  if (size == image_size_) return;
+  image_size_ = size;
+  lens_ = camera_;
+  if (!lens_) {
+    CameraCalibration pinhole;
+    pinhole.fx = pinhole.fy = size.width;
+    pinhole.cx = 0.5 * (size.width - 1);
+    pinhole.cy = 0.5 * (size.height - 1);
+    lens_ = makeUncheckedCameraModel(pinhole);
   }
-  CameraCalibration calibration;
-  if (camera_) {
-    calibration = camera_->calibration();
-  } else {
-    calibration.fx = calibration.fy = image.cols;
-    calibration.cx = 0.5 * (image.cols - 1);
-    calibration.cy = 0.5 * (image.rows - 1);
-  }
-  calibration.width = image.cols;
-  calibration.height = image.rows;
-  aligned_camera_ = makeCameraModel(calibration);
-  coarse_.setCamera(*aligned_camera_);
-  fine_.setCamera(*aligned_camera_);
+  coarse_.setCamera(*lens_, size);
+  fine_.setCamera(*lens_, size);
 }
 
-std::optional<Eigen::Vector3f> MotionPrior::Implementation::gyroTurn(std::int64_t stamp_ns) const {
+std::optional<Eigen::Vector3f> MotionPrior::Implementation::integrateGyro(std::int64_t stamp_ns) const {
   if (!camera_from_imu_ || (parameters_.prior != "imu" && parameters_.prior != "auto")) return std::nullopt;
   const std::optional<Eigen::Matrix3d> rotation =
       gyro_.rotation(last_stamp_ns_, stamp_ns, Eigen::Vector3d::Zero());
   if (!rotation) return std::nullopt;
-  return vectorOf(*camera_from_imu_ * *rotation * camera_from_imu_->transpose());
+  return so3Log(*camera_from_imu_ * *rotation * camera_from_imu_->transpose()).cast<float>();
 }
 
-void MotionPrior::Implementation::learnGyroBias(const Eigen::Vector3f& measured,
-                                                const Eigen::Vector3f& aligned, float interval_s) {
-  const Eigen::Vector3f difference = (measured - aligned) / interval_s;
-  // Parallax and blur disturb single images: a slow mean, and nothing that no gyroscope does.
-  if (!difference.allFinite() || difference.norm() > kMaxGyroBias) return;
-  gyro_bias_ += kBiasShare * (difference - gyro_bias_);
-}
-
-Eigen::Vector3f MotionPrior::Implementation::imageTurn(const ImagePyramid& pyramid) {
+Eigen::Vector3f MotionPrior::Implementation::alignImages(const ImagePyramid& pyramid) {
   // From standing still and from going on as before, whichever fits better.
   Eigen::Vector3f start = Eigen::Vector3f::Zero();
-  if (coarse_.hasImage()) {
-    if (coarse_.cost(pyramid, last_turn_) < coarse_.cost(pyramid, start)) start = last_turn_;
+  if (coarse_.hasTemplate()) {
+    if (coarse_.cost(pyramid, last_rotation_) < coarse_.cost(pyramid, start)) start = last_rotation_;
     start = coarse_.align(pyramid, start, kCoarseIterations);
   }
-  return fine_.hasImage() ? fine_.align(pyramid, start, kFineIterations) : start;
+  return fine_.hasTemplate() ? fine_.align(pyramid, start, kFineIterations) : start;
+}
+
+std::optional<Eigen::Vector3f> MotionPrior::Implementation::fuse(RotationAligner& aligner,
+                                                                 const ImagePyramid& pyramid,
+                                                                 const Eigen::Vector3f& measured,
+                                                                 Eigen::Vector3f seen, float max_cost,
+                                                                 float interval_s) {
+  const Eigen::Vector3f corrected = measured - interval_s * gyro_bias_.value();
+  const float cost = aligner.cost(pyramid, corrected);
+  if (cost < max_cost) {
+    // Where the images alone go astray, the gyroscope leads them back.
+    const Eigen::Vector3f led = aligner.align(pyramid, corrected, kFineIterations);
+    if (!seen.allFinite() || aligner.cost(pyramid, led) < kMinLead * aligner.cost(pyramid, seen)) seen = led;
+  }
+  gyro_bias_.learn(measured, seen, interval_s);
+  if (!(cost < max_cost) && !((seen - corrected).norm() < kAgreement)) return std::nullopt;
+  const bool leads = !seen.allFinite() || cost < kMinLead * aligner.cost(pyramid, seen);
+  return leads ? corrected : seen;
 }
 
 MotionPrediction MotionPrior::Implementation::predict(const ImagePyramid& pyramid, std::int64_t stamp_ns) {
   MotionPrediction prediction;
   if (parameters_.prior == "none") return prediction;
   prepareCamera(pyramid);
-  RotationAligner& judge = fine_.hasImage() ? fine_ : coarse_;
-  if (judge.hasImage()) {
-    const float still = kMinImprovement * judge.cost(pyramid, Eigen::Vector3f::Zero());
-    Eigen::Vector3f turn = Eigen::Vector3f::Zero();
-    const std::optional<Eigen::Vector3f> measured = gyroTurn(stamp_ns);
-    const float interval_s = 1e-9F * static_cast<float>(stamp_ns - last_stamp_ns_);
-    const Eigen::Vector3f corrected = measured ? Eigen::Vector3f(*measured - interval_s * gyro_bias_) : turn;
-    if (measured && judge.cost(pyramid, corrected) < still) {
+  RotationAligner& aligner = fine_.hasTemplate() ? fine_ : coarse_;
+  if (aligner.hasTemplate()) {
+    const float max_cost = kMinImprovement * aligner.cost(pyramid, Eigen::Vector3f::Zero());
+    Eigen::Vector3f rotation = Eigen::Vector3f::Zero();
+    const Eigen::Vector3f seen = alignImages(pyramid);
+    const std::optional<Eigen::Vector3f> measured = integrateGyro(stamp_ns);
+    const std::optional<Eigen::Vector3f> fused =
+        measured ? fuse(aligner, pyramid, *measured, seen, max_cost,
+                        1e-9F * static_cast<float>(stamp_ns - last_stamp_ns_))
+                 : std::nullopt;
+    if (fused && fused->allFinite() && aligner.cost(pyramid, *fused) < max_cost) {
       prediction.source = MotionPrediction::Source::kImu;
-      turn = corrected;
-      learnGyroBias(*measured, judge.align(pyramid, corrected, kBiasIterations), interval_s);
-    } else if (!measured || parameters_.prior == "auto") {
-      const Eigen::Vector3f found = imageTurn(pyramid);
-      if (found.allFinite() && judge.cost(pyramid, found) < still) {
-        prediction.source = MotionPrediction::Source::kImage;
-        turn = found;
-      }
+      rotation = *fused;
+    } else if ((!measured || parameters_.prior == "auto") && seen.allFinite() &&
+               aligner.cost(pyramid, seen) < max_cost) {
+      prediction.source = MotionPrediction::Source::kImage;
+      rotation = seen;
     }
-    prediction.rotation = rotationOf(turn);
-    last_turn_ = turn;
+    prediction.rotation = so3Exp(rotation.cast<double>()).toRotationMatrix();
+    last_rotation_ = rotation;
   }
-  coarse_.describe(pyramid);
-  fine_.describe(pyramid);
+  coarse_.extractTemplate(pyramid);
+  fine_.extractTemplate(pyramid);
   gyro_.forgetBefore(stamp_ns);
   last_stamp_ns_ = stamp_ns;
   return prediction;
@@ -176,19 +182,19 @@ MotionPrediction MotionPrior::Implementation::predict(const ImagePyramid& pyrami
 LineSegment MotionPrior::Implementation::apply(const MotionPrediction& prediction, const LineSegment& segment,
                                                const Eigen::Vector2d& start_normalized,
                                                const Eigen::Vector2d& end_normalized) const {
-  if (!aligned_camera_ || !prediction.used()) return segment;
-  const auto turned = [&](const Eigen::Vector2f& point,
-                          const Eigen::Vector2d& normalized) -> std::optional<Eigen::Vector2d> {
-    if (normalized.allFinite())
-      return aligned_camera_->project(prediction.rotation * normalized.homogeneous());
-    const std::optional<Eigen::Vector3d> ray = aligned_camera_->unproject(point.cast<double>());
+  if (!lens_ || !prediction.used()) return segment;
+  const auto rotated = [&](const Eigen::Vector2f& point,
+                           const Eigen::Vector2d& normalized) -> std::optional<Eigen::Vector2d> {
+    if (normalized.allFinite()) return lens_->project(prediction.rotation * normalized.homogeneous());
+    const std::optional<Eigen::Vector3d> ray = lens_->unproject(point.cast<double>());
     if (!ray) return std::nullopt;
-    return aligned_camera_->project(prediction.rotation * *ray);
+    return lens_->project(prediction.rotation * *ray);
   };
-  const std::optional<Eigen::Vector2d> start = turned(segment.start, start_normalized);
-  const std::optional<Eigen::Vector2d> end = turned(segment.end, end_normalized);
+  const std::optional<Eigen::Vector2d> start = rotated(segment.start, start_normalized);
+  const std::optional<Eigen::Vector2d> end = rotated(segment.end, end_normalized);
   if (!start || !end) return segment;
-  return {start->cast<float>(), end->cast<float>()};
+  const LineSegment expected{start->cast<float>(), end->cast<float>()};
+  return expected.start.allFinite() && expected.end.allFinite() ? expected : segment;
 }
 
 MotionPrior::MotionPrior(const MotionPriorParameters& parameters)
@@ -205,6 +211,9 @@ void MotionPrior::setImuRotation(const Eigen::Matrix3d& camera_from_imu) {
 }
 void MotionPrior::addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3d& angular_velocity) {
   implementation_->addAngularVelocity(stamp_ns, angular_velocity);
+}
+Eigen::Vector3d MotionPrior::gyroBias() const {
+  return implementation_->gyroBias();
 }
 void MotionPrior::reset() {
   implementation_->reset();

@@ -12,52 +12,53 @@
 namespace tet_line_tracker {
 
 /// Direct alignment of one pyramid level of two images by a rotation of the camera, with gain and offset of
-/// the gray values: Gauss-Newton on the pixels with the steepest gradients of the first image. Rotations are
-/// vectors of axis times angle [rad]; image motion is taken linear in them, which is exact enough at the
-/// coarse levels it is made for.
+/// the gray values: Gauss-Newton on the pixels with the steepest gradients of the first image, the template.
+/// Rotations are rotation vectors (axis times angle) [rad]; image motion is taken linear in them, which is
+/// exact enough at the coarse levels it is made for.
 class RotationAligner {
  public:
   /// `level`: of the pyramid.
   explicit RotationAligner(int level) : level_(level) {}
 
-  /// Lens and size of the original image; forgets the first image.
-  void setCamera(const CameraModel& camera);
+  /// Lens and size of the original image [px]; forgets the template.
+  void setCamera(const CameraModel& camera, const cv::Size& size);
 
-  /// Takes the first image. False when it has too little texture.
-  bool describe(const ImagePyramid& first);
+  /// Takes the first image. False when it has too little texture or another size than the camera.
+  bool extractTemplate(const ImagePyramid& first);
 
-  /// Mean absolute gray difference between the first image and `second` turned back by `turn`, large ones cut
-  /// off.
-  float cost(const ImagePyramid& second, const Eigen::Vector3f& turn);
+  /// Mean absolute gray difference between the template and `second` rotated back by `rotation`, large ones
+  /// cut off.
+  float cost(const ImagePyramid& second, const Eigen::Vector3f& rotation);
 
-  /// The turn near `start` at which the images fit best.
+  /// The rotation near `start` at which the images fit best.
   Eigen::Vector3f align(const ImagePyramid& second, const Eigen::Vector3f& start, int max_iterations);
 
-  bool hasImage() const { return !points_.empty(); }
-  void forget() { points_.clear(); }
+  bool hasTemplate() const { return !points_.empty(); }
+  void clearTemplate() { points_.clear(); }
 
  private:
   struct Point {
-    Eigen::Vector2f place;                ///< [px of the level]
-    Eigen::Matrix<float, 2, 3> movement;  ///< of the pixel by a turn [px / rad]
-    Eigen::Vector3f slope;  ///< of the gray value by a turn [gray / rad], gain and offset taken out
-    float gray;             ///< less the mean of all points
+    Eigen::Vector2f pixel;                ///< [px of the level]
+    Eigen::Matrix<float, 2, 3> jacobian;  ///< of the pixel by the rotation vector [px / rad]
+    Eigen::Vector3f gray_gradient;  ///< of the gray value by the rotation vector, the part that gain and
+                                    ///< offset would explain taken out [gray / rad]
+    float gray;                     ///< less the mean of all points
   };
-  struct Light {
-    float shrink, offset;  ///< first = shrink * (second - offset)
+  struct Brightness {
+    float inverse_gain, offset;  ///< template = inverse_gain * (second - offset)
   };
 
-  /// Gray values of `second` at the points moved by `turn`, and what light has changed.
-  Light read(const cv::Mat& second, const Eigen::Vector3f& turn);
+  /// Gray values of `second` at the points moved by `rotation`, and its change of brightness.
+  Brightness sample(const cv::Mat& second, const Eigen::Vector3f& rotation);
 
   int level_;
   int width_{0}, height_{0};
-  std::vector<Eigen::Matrix<float, 2, 3>> movements_;  ///< of every pixel of the level
+  std::vector<Eigen::Matrix<float, 2, 3>> jacobians_;  ///< of every pixel of the level
   std::vector<Point> points_;
-  std::vector<std::uint16_t> steepness_;  ///< of every pixel; 0 at the border [gray over 2 px]
-  std::vector<float> values_;
-  float gray_square_{0.0F};  ///< mean of gray^2
-  Eigen::Matrix3f normal_inverse_{Eigen::Matrix3f::Identity()};
+  std::vector<std::uint16_t> magnitudes_;  ///< of the gradient, of every pixel; 0 at the border [gray / 2 px]
+  std::vector<float> samples_;
+  float gray_variance_{0.0F};
+  Eigen::Matrix3f inverse_hessian_{Eigen::Matrix3f::Identity()};
 };
 
 }  // namespace tet_line_tracker

@@ -28,11 +28,19 @@ struct Samples {
   int count{0};
 };
 
+/// Whether the pixels of `line` can be counted: it is finite, longer than a pixel, and not too far outside.
+bool canBeSampled(const LineSegment& line) {
+  constexpr float kFarOutside = 1e6F;
+  return (line.start.array().abs() < kFarOutside).all() && (line.end.array().abs() < kFarOutside).all() &&
+         line.length() > 1.0F;
+}
+
 /// Profiles along the image axis that is nearer to the normal: whole pixels, no interpolation.
 class ProfileSampler {
  public:
-  ProfileSampler(const cv::Mat& gray, const LineSegment& line, float polarity, float search_px)
-      : gray_(gray), length_(line.length()) {
+  ProfileSampler(const cv::Mat& gray, const LineCurve& curve, float polarity, float search_px)
+      : gray_(gray), length_(curve.chord.length()), bend_(curve.bend) {
+    const LineSegment& line = curve.chord;
     const Eigen::Vector2f direction = line.direction();
     flat_ = std::abs(direction.x()) >= std::abs(direction.y());
     start_main_ = flat_ ? line.start.x() : line.start.y();
@@ -41,6 +49,7 @@ class ProfileSampler {
     cross_per_main_ = (flat_ ? direction.y() : direction.x()) / main_per_along_;
     const Eigen::Vector2f normal = line.normal();
     normal_share_ = flat_ ? normal.y() : normal.x();
+    along_per_cross_ = flat_ ? direction.y() : direction.x();
     const int reach = static_cast<int>(std::ceil(search_px / std::abs(normal_share_)));
     reach_ = std::min(reach, (kernels::kMaxProfile - 3) / 2);
     batch_.step = flat_ ? static_cast<std::ptrdiff_t>(gray.step[0]) : 1;
@@ -55,19 +64,21 @@ class ProfileSampler {
   void take(int count, Samples& samples) {
     const std::size_t wanted = static_cast<std::size_t>(count);
     const float spacing = length_ / static_cast<float>(count);
+    const bool bent = !bend_.isStraight();
     for (std::size_t i = 0; i < wanted; ++i) {
       const float along = (static_cast<float>(i) + 0.5F) * spacing;
       const int main = nearestPixel(start_main_ + along * main_per_along_);
-      const float cross = start_cross_ + (static_cast<float>(main) - start_main_) * cross_per_main_;
-      const int begin = nearestPixel(cross) - reach_ - 1;
+      float cross = start_cross_ + (static_cast<float>(main) - start_main_) * cross_per_main_;
       samples.places[i] = 2.0F * along / length_ - 1.0F;
+      if (bent) cross += bendAt(main, &samples.places[i]);
+      const int begin = nearestPixel(cross) - reach_ - 1;
       mains_[i] = main;
       begins_[i] = begin;
       centres_[i] = cross - static_cast<float>(begin);
     }
-    // The line is straight: with both ends inside, all is.
+    // A straight line with both ends inside is all inside.
     std::size_t kept = wanted;
-    if (!inside(0) || !inside(wanted - 1)) {
+    if (bent || !inside(0) || !inside(wanted - 1)) {
       kept = 0;
       for (std::size_t i = 0; i < wanted; ++i) {
         if (!inside(i)) continue;
@@ -89,10 +100,22 @@ class ProfileSampler {
   }
 
  private:
-  /// Rounds what lies in an image or not too far left of it; what is farther stays outside.
+  /// Precondition: canBeSampled(). Rounds what lies in an image or not too far left of it; what is farther
+  /// stays outside.
   static int nearestPixel(float place) {
     constexpr int kShift = 1 << 12;
     return static_cast<int>(place + (static_cast<float>(kShift) + 0.5F)) - kShift;
+  }
+
+  /// From the chord to the curve, along the profile at pixel `main` of the main axis [px]; sets the place of
+  /// that point along the line.
+  float bendAt(int main, float* place) const {
+    const float on_chord = (static_cast<float>(main) - start_main_) / (main_per_along_ * length_);
+    // The profile is not along the normal: it meets the curve beside where it meets the chord.
+    const float first = bend_.offset(on_chord) / normal_share_;
+    const float fraction = on_chord + first * along_per_cross_ / length_;
+    *place = 2.0F * fraction - 1.0F;
+    return bend_.offset(fraction) / normal_share_;
   }
 
   bool inside(std::size_t i) const {
@@ -115,19 +138,28 @@ class ProfileSampler {
 
   const cv::Mat& gray_;
   float length_;
+  LineBend bend_;
   bool flat_;                       ///< the main axis is x
   float start_main_, start_cross_;  ///< [px]
   float main_per_along_, cross_per_main_;
   float normal_share_;
+  float along_per_cross_;
   int reach_;
   kernels::ProfileBatch batch_{};
   std::array<int, Samples::kCapacity> mains_, begins_;
   std::array<float, Samples::kCapacity> centres_;
 };
 
+/// Offset and tilt with their cofactors: covariances for samples of variance 1.
+struct WeightedFit {
+  kernels::OffsetFit line;
+  float offset_offset{0.0F}, offset_tilt{0.0F}, tilt_tilt{0.0F};
+};
+
 /// Iteratively re-weighted least squares with Tukey's weights, from wide to narrow.
-kernels::OffsetFit fitOffsets(const kernels::EdgeSamples& samples, float min_slope) {
-  kernels::OffsetFit fit;
+WeightedFit fitOffsets(const kernels::EdgeSamples& samples, float min_slope) {
+  WeightedFit weighted;
+  kernels::OffsetFit& fit = weighted.line;
   for (const float width : {4.0F, 3.0F, 2.0F, 1.5F, 1.5F}) {
     std::array<float, 5> sums;
     kernels::active().sumOffsets(samples, fit, width, min_slope, sums.data());
@@ -136,13 +168,17 @@ kernels::OffsetFit fitOffsets(const kernels::EdgeSamples& samples, float min_slo
     if (determinant < 1e-3F) break;
     fit.offset = (wpp * wo - wp * wpo) / determinant;
     fit.tilt = (w * wpo - wp * wo) / determinant;
+    weighted.offset_offset = wpp / determinant;
+    weighted.offset_tilt = -wp / determinant;
+    weighted.tilt_tilt = w / determinant;
   }
-  return fit;
+  return weighted;
 }
 
 }  // namespace
 
-float LineRefiner::contrastOf(const cv::Mat& gray, const LineSegment& line) const {
+float LineRefiner::contrastOf(const cv::Mat& gray, const LineCurve& line) const {
+  if (!canBeSampled(line.chord)) return 0.0F;
   constexpr int kCount = 2 * kernels::kLanes;
   ProfileSampler sampler(gray, line, 1.0F, 1.5F);
   Samples samples;
@@ -153,12 +189,13 @@ float LineRefiner::contrastOf(const cv::Mat& gray, const LineSegment& line) cons
   return *middle;
 }
 
-EdgeFit LineRefiner::fit(const cv::Mat& gray, const LineSegment& line, float contrast) const {
+EdgeFit LineRefiner::fit(const cv::Mat& gray, const LineCurve& curve, float contrast) const {
   EdgeFit result;
+  const LineSegment& line = curve.chord;
   result.segment = line;
   const float length = line.length();
-  if (!(length > 1.0F)) return result;
-  ProfileSampler sampler(gray, line, contrast, static_cast<float>(parameters_.search_px));
+  if (!canBeSampled(line)) return result;
+  ProfileSampler sampler(gray, curve, contrast, static_cast<float>(parameters_.search_px));
   const float min_slope = std::max(kMinSlope, kMinContrastShare * std::abs(contrast));
 
   const int wanted = std::clamp(static_cast<int>(length / kSampleSpacing), kMinSamples, kMaxSamples);
@@ -168,7 +205,8 @@ EdgeFit LineRefiner::fit(const cv::Mat& gray, const LineSegment& line, float con
 
   const kernels::EdgeSamples found{samples.places.data(), samples.offsets.data(), samples.slopes.data(),
                                    samples.count};
-  const kernels::OffsetFit fit = fitOffsets(found, min_slope);
+  const WeightedFit weighted = fitOffsets(found, min_slope);
+  const kernels::OffsetFit& fit = weighted.line;
   std::array<float, 3> sums;
   kernels::active().sumSupport(found, fit, kOnEdge, min_slope, sums.data());
   const auto [supported, slopes, squares] = sums;
@@ -178,7 +216,13 @@ EdgeFit LineRefiner::fit(const cv::Mat& gray, const LineSegment& line, float con
 
   result.contrast = std::copysign(slopes / supported, contrast);
   const float variance = squares / (supported - 2.0F);
-  result.sigma_px = std::sqrt(kSigmaFloor * kSigmaFloor + variance / supported);
+  constexpr float kFloor = kSigmaFloor * kSigmaFloor;
+  result.sigma_px = std::sqrt(kFloor + variance / supported);
+  // Of the ends, at -1 and 1. The floor is of offset and tilt alike: a sampling error differs along the line.
+  const float offsets = variance * weighted.offset_offset + kFloor;
+  const float tilts = variance * weighted.tilt_tilt + kFloor;
+  const float both = 2.0F * variance * weighted.offset_tilt;
+  result.covariance_px = {offsets - both + tilts, offsets - tilts, offsets + both + tilts};
   const Eigen::Vector2f normal = line.normal();
   result.segment = {line.start + fit.at(-1.0F) * normal, line.end + fit.at(1.0F) * normal};
   return result;

@@ -14,47 +14,50 @@ void SingleTrackCheck::apply(const VisibleArea& area, TrackTable& tracks, FrameS
   }
 }
 
-bool LengthRatioCheck::passes(const VisibleArea&, TrackedLine&, const TrackState& state,
-                              FrameStatistics&) const {
+bool LengthRatioCheck::passes(const VisibleArea&, TrackedLine&, TrackState& state, FrameStatistics&) const {
   const float ratio = state.followed.length() / state.predicted.length();
   return ratio < max_ratio_ && ratio * max_ratio_ > 1.0F;
 }
 
-bool AngleCheck::passes(const VisibleArea&, TrackedLine&, const TrackState& state, FrameStatistics&) const {
+bool AngleCheck::passes(const VisibleArea&, TrackedLine&, TrackState& state, FrameStatistics&) const {
   return angleBetween(state.predicted, state.followed) <= max_rotation_;
 }
 
-bool SupportCheck::passes(const VisibleArea&, TrackedLine&, const TrackState& state, FrameStatistics&) const {
+bool SupportCheck::passes(const VisibleArea&, TrackedLine&, TrackState& state, FrameStatistics&) const {
   return state.support >= min_support_;
 }
 
-bool EndpointsInImageCheck::passes(const VisibleArea& area, TrackedLine& line, const TrackState&,
+bool EndpointsInImageCheck::passes(const VisibleArea& area, TrackedLine& line, TrackState&,
                                    FrameStatistics&) const {
   return area.bounds().contains(line.segment.start) && area.bounds().contains(line.segment.end);
 }
 
-bool CutAtBorderCheck::passes(const VisibleArea& area, TrackedLine& line, const TrackState&,
+bool CutAtBorderCheck::passes(const VisibleArea& area, TrackedLine& line, TrackState& state,
                               FrameStatistics&) const {
-  const std::optional<LineSegment> inside = clip(line.segment, area.bounds());
-  if (!inside) return false;
-  const bool cut = inside->length() != line.segment.length();
-  line.segment = *inside;
-  return !cut || inside->length() >= min_length_;
+  LineCurve curve(line.segment, state.bend);
+  if (!area.cutToBounds(0.0F, curve)) return false;
+  const bool cut = curve.chord.length() != line.segment.length();
+  line.segment = curve.chord;
+  state.bend = curve.bend;
+  return !cut || curve.chord.length() >= min_length_;
 }
 
-bool MinLengthCheck::passes(const VisibleArea&, TrackedLine& line, const TrackState&,
-                            FrameStatistics&) const {
+bool MinLengthCheck::passes(const VisibleArea&, TrackedLine& line, TrackState&, FrameStatistics&) const {
   return line.segment.length() >= min_length_;
 }
 
-bool FieldOfViewCheck::passes(const VisibleArea& area, TrackedLine& line, const TrackState&,
+bool FieldOfViewCheck::passes(const VisibleArea& area, TrackedLine& line, TrackState& state,
                               FrameStatistics& statistics) const {
-  return area.cutToFieldOfView(min_length_, line.segment, statistics);
+  LineCurve curve(line.segment, state.bend);
+  if (!area.cutToFieldOfView(min_length_, curve, statistics)) return false;
+  line.segment = curve.chord;
+  state.bend = curve.bend;
+  return true;
 }
 
-bool MaskCheck::passes(const VisibleArea& area, TrackedLine& line, const TrackState&,
+bool MaskCheck::passes(const VisibleArea& area, TrackedLine& line, TrackState& state,
                        FrameStatistics&) const {
-  return area.mask().empty() || mostlyInMask(line.segment, area.mask());
+  return area.mask().empty() || mostlyInMask({line.segment, state.bend}, area.mask());
 }
 
 void EdgeJumpCheck::apply(const VisibleArea&, TrackTable& tracks, FrameStatistics&) {
@@ -73,11 +76,11 @@ void DuplicateCheck::apply(const VisibleArea&, TrackTable& tracks, FrameStatisti
   older_.clear();
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     if (tracks.state(i).lost()) continue;
-    const LineSegment& segment = tracks.line(i).segment;
-    if (older_.containsDuplicateOf(segment)) {
+    const LineCurve line(tracks.line(i).segment, tracks.state(i).bend);
+    if (older_.containsDuplicateOf(line)) {
       tracks.state(i).loss = reason();
     } else {
-      older_.add(segment);
+      older_.add(line);
     }
   }
 }

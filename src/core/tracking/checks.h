@@ -34,7 +34,7 @@ class SingleTrackCheck : public TrackCheck {
   void apply(const VisibleArea& area, TrackTable& tracks, FrameStatistics& statistics) final;
 
  private:
-  virtual bool passes(const VisibleArea& area, TrackedLine& line, const TrackState& state,
+  virtual bool passes(const VisibleArea& area, TrackedLine& line, TrackState& state,
                       FrameStatistics& statistics) const = 0;
 };
 
@@ -47,7 +47,7 @@ class LengthRatioCheck : public SingleTrackCheck {
       : SingleTrackCheck(LossReason::kLengthRatio), max_ratio_(static_cast<float>(max_ratio)) {}
 
  private:
-  bool passes(const VisibleArea&, TrackedLine&, const TrackState& state, FrameStatistics&) const override;
+  bool passes(const VisibleArea&, TrackedLine&, TrackState& state, FrameStatistics&) const override;
   float max_ratio_;
 };
 
@@ -58,7 +58,7 @@ class AngleCheck : public SingleTrackCheck {
       : SingleTrackCheck(LossReason::kAngle), max_rotation_(max_rotation) {}
 
  private:
-  bool passes(const VisibleArea&, TrackedLine&, const TrackState& state, FrameStatistics&) const override;
+  bool passes(const VisibleArea&, TrackedLine&, TrackState& state, FrameStatistics&) const override;
   double max_rotation_;  ///< [rad]
 };
 
@@ -69,7 +69,7 @@ class SupportCheck : public SingleTrackCheck {
       : SingleTrackCheck(LossReason::kSupport), min_support_(min_support) {}
 
  private:
-  bool passes(const VisibleArea&, TrackedLine&, const TrackState& state, FrameStatistics&) const override;
+  bool passes(const VisibleArea&, TrackedLine&, TrackState& state, FrameStatistics&) const override;
   double min_support_;
 };
 
@@ -79,7 +79,7 @@ class EndpointsInImageCheck : public SingleTrackCheck {
   EndpointsInImageCheck() : SingleTrackCheck(LossReason::kBorder) {}
 
  private:
-  bool passes(const VisibleArea& area, TrackedLine& line, const TrackState&, FrameStatistics&) const override;
+  bool passes(const VisibleArea& area, TrackedLine& line, TrackState&, FrameStatistics&) const override;
 };
 
 /// Cuts lines at the border of the image; lost when that leaves too little.
@@ -89,7 +89,7 @@ class CutAtBorderCheck : public SingleTrackCheck {
       : SingleTrackCheck(LossReason::kBorder), min_length_(static_cast<float>(min_length)) {}
 
  private:
-  bool passes(const VisibleArea& area, TrackedLine& line, const TrackState&, FrameStatistics&) const override;
+  bool passes(const VisibleArea& area, TrackedLine& line, TrackState&, FrameStatistics&) const override;
   float min_length_;  ///< [px]
 };
 
@@ -100,7 +100,7 @@ class MinLengthCheck : public SingleTrackCheck {
       : SingleTrackCheck(LossReason::kShort), min_length_(static_cast<float>(min_length)) {}
 
  private:
-  bool passes(const VisibleArea&, TrackedLine& line, const TrackState&, FrameStatistics&) const override;
+  bool passes(const VisibleArea&, TrackedLine& line, TrackState&, FrameStatistics&) const override;
   float min_length_;  ///< [px]
 };
 
@@ -111,7 +111,7 @@ class FieldOfViewCheck : public SingleTrackCheck {
       : SingleTrackCheck(LossReason::kFieldOfView), min_length_(static_cast<float>(min_length)) {}
 
  private:
-  bool passes(const VisibleArea& area, TrackedLine& line, const TrackState&,
+  bool passes(const VisibleArea& area, TrackedLine& line, TrackState&,
               FrameStatistics& statistics) const override;
   float min_length_;  ///< [px]
 };
@@ -122,7 +122,7 @@ class MaskCheck : public SingleTrackCheck {
   MaskCheck() : SingleTrackCheck(LossReason::kMask) {}
 
  private:
-  bool passes(const VisibleArea& area, TrackedLine& line, const TrackState&, FrameStatistics&) const override;
+  bool passes(const VisibleArea& area, TrackedLine& line, TrackState&, FrameStatistics&) const override;
 };
 
 /// Rejects lines that jumped to a neighbouring edge: flow and edge disagree by more than is usual for the

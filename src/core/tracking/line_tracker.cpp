@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "geometry/coverage_grid.h"
 #include "tet_line_tracker/image/image_pyramid.h"
 #include "tet_line_tracker/tracking/frame_sequence.h"
@@ -46,6 +48,7 @@ class LineTracker::Implementation {
   void detect(const cv::Mat& gray);
   float coverage() const;
   void extractTemplates();
+  void markCuts();
 
   LineTrackerParameters parameters_;
   TrackingMethod method_;
@@ -88,6 +91,7 @@ FrameResult LineTracker::Implementation::process(const cv::Mat& gray, std::int64
   extractTemplates();
   statistics.flow_ms += stage.lap();
   normalizeEndpoints(camera_.get(), tracks_.lines());
+  markCuts();
   frame.lines = tracks_.lines();
   statistics.undistort_ms = stage.lap();
   statistics.total_ms = total.lap();
@@ -126,7 +130,12 @@ void LineTracker::Implementation::followTrack(const MotionPrediction& motion, Tr
                                               TrackState& state) const {
   state.rotated = prior_.apply(motion, line.segment, line.start_normalized, line.end_normalized);
   state.predicted = {state.rotated.start + state.start_parallax, state.rotated.end + state.end_parallax};
-  const EndpointFlow flow = method_.flow->track(state.patches, pyramid_, state.predicted);
+  LineCurve expected(state.predicted);
+  if (!area_.lens().isStraight() && line.start_normalized.allFinite() && line.end_normalized.allFinite()) {
+    expected.bend = area_.lens().between(state.rotated, motion.rotation * line.start_normalized.homogeneous(),
+                                         motion.rotation * line.end_normalized.homogeneous());
+  }
+  const EndpointFlow flow = method_.flow->track(state.patches, pyramid_, expected);
   switch (flow.status) {
     case EndpointFlow::Status::kNoSolution:
       state.loss = LossReason::kFlow;
@@ -156,12 +165,15 @@ void LineTracker::Implementation::refine() {
     TrackedLine& line = tracks_.line(i);
     TrackState& state = tracks_.state(i);
     if (state.lost()) return;
-    const EdgeFit fit = method_.refiner->fit(pyramid_.level(0), line.segment, state.contrast);
+    const LineCurve curve = area_.lens().curve(line.segment);
+    const EdgeFit fit = method_.refiner->fit(pyramid_.level(0), curve, state.contrast);
+    state.bend = curve.bend;
     state.support = fit.support;
     state.edge_offset = std::abs(fit.segment.distance(line.segment.middle()));
     state.contrast = fit.contrast;
     line.segment = fit.segment;
     line.sigma_px = fit.sigma_px;
+    line.covariance_px = fit.covariance_px;
   });
 }
 
@@ -201,6 +213,12 @@ void LineTracker::Implementation::detect(const cv::Mat& gray) {
   frame.statistics.coverage = detection_.coverage;
 }
 
+void LineTracker::Implementation::markCuts() {
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    tracks_.line(i).cut = area_.cutsOf({tracks_.line(i).segment, tracks_.state(i).bend});
+  }
+}
+
 float LineTracker::Implementation::coverage() const {
   CoverageGrid grid(pyramid_.level(0).cols, pyramid_.level(0).rows);
   for (const TrackedLine& line : tracks_.lines()) grid.add(line.segment);
@@ -212,7 +230,7 @@ void LineTracker::Implementation::extractTemplates() {
     TrackState& state = tracks_.state(i);
     if (!state.template_due) return;
     state.reference = tracks_.line(i).segment;
-    method_.flow->extractTemplate(pyramid_, state.reference, state.patches);
+    method_.flow->extractTemplate(pyramid_, {state.reference, state.bend}, state.patches);
   });
 }
 

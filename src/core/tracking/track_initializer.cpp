@@ -14,11 +14,12 @@ TrackInitializer::TrackInitializer(const DetectionParameters& detection, const L
 void TrackInitializer::addTracks(const cv::Mat& gray, const VisibleArea& area, TrackTable& tracks,
                                  FrameStatistics& statistics) {
   hints_.mask = area.mask();
+  hints_.lens = &area.lens();
   hints_.tracked.clear();
   taken_.clear();
-  for (const TrackedLine& line : tracks.lines()) {
-    hints_.tracked.push_back(line.segment);
-    taken_.add(line.segment);
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    hints_.tracked.emplace_back(tracks.line(i).segment, tracks.state(i).bend);
+    taken_.add(hints_.tracked.back());
   }
   // More than there is room for, as some are no good; but not the whole of a rich image, which takes time.
   const std::size_t max_lines = static_cast<std::size_t>(parameters_.max_lines);
@@ -33,36 +34,40 @@ void TrackInitializer::addTracks(const cv::Mat& gray, const VisibleArea& area, T
     return i < candidates_.size() ? &candidates_[i++] : nullptr;
   };
   selector_.start(gray.cols, gray.rows, candidates_);
-  for (const LineSegment& line : hints_.tracked) selector_.add(line);
+  for (const LineCurve& line : hints_.tracked) selector_.add(line.chord);
   while (tracks.size() < max_lines) {
     const LineSegment* candidate = next();
     if (candidate == nullptr) break;
+    const LineCurve curve = area.lens().curve(*candidate);
     // The cheap test before the fit, and again after it.
-    if (taken_.containsDuplicateOf(*candidate)) continue;
-    const std::optional<EdgeFit> edge = fitEdge(gray, area, *candidate, statistics);
-    if (!edge || taken_.containsDuplicateOf(edge->segment)) continue;
-    taken_.add(edge->segment);
-    selector_.add(edge->segment);
-    tracks.add(edge->segment, edge->contrast);
+    if (taken_.containsDuplicateOf(curve)) continue;
+    const std::optional<NewLine> line = fitEdge(gray, area, curve, statistics);
+    if (!line || taken_.containsDuplicateOf(line->curve())) continue;
+    taken_.add(line->curve());
+    selector_.add(line->edge.segment);
+    tracks.add(line->edge, line->bend);
   }
   statistics.lines_added = static_cast<std::uint32_t>(tracks.size() - tracked);
 }
 
-std::optional<EdgeFit> TrackInitializer::fitEdge(const cv::Mat& gray, const VisibleArea& area,
-                                                 const LineSegment& candidate,
-                                                 FrameStatistics& statistics) const {
-  EdgeFit edge;
-  edge.segment = candidate;
+std::optional<TrackInitializer::NewLine> TrackInitializer::fitEdge(const cv::Mat& gray,
+                                                                   const VisibleArea& area,
+                                                                   const LineCurve& candidate,
+                                                                   FrameStatistics& statistics) const {
+  NewLine line;
+  line.edge.segment = candidate.chord;
   if (options_.fit_edges) {
-    edge = refiner_.fit(gray, candidate, refiner_.contrastOf(gray, candidate));
-    if (edge.support < parameters_.min_detection_support) return std::nullopt;
+    line.edge = refiner_.fit(gray, candidate, refiner_.contrastOf(gray, candidate));
+    if (line.edge.support < parameters_.min_detection_support) return std::nullopt;
   }
-  const std::optional<LineSegment> inside = clip(edge.segment, area.bounds(options_.margin_px));
   const auto min_length = static_cast<float>(parameters_.min_length);
-  if (!inside || inside->length() < min_length + options_.margin_px) return std::nullopt;
-  edge.segment = *inside;
-  if (!area.cutToFieldOfView(min_length, edge.segment, statistics)) return std::nullopt;
-  return edge;
+  LineCurve inside(line.edge.segment, candidate.bend);
+  if (!area.cutToBounds(options_.margin_px, inside)) return std::nullopt;
+  if (inside.chord.length() < min_length + options_.margin_px) return std::nullopt;
+  if (!area.cutToFieldOfView(min_length, inside, statistics)) return std::nullopt;
+  line.edge.segment = inside.chord;
+  line.bend = inside.bend;
+  return line;
 }
 
 }  // namespace tet_line_tracker

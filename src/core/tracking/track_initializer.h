@@ -40,8 +40,13 @@ class TrackInitializer {
   std::string detectorName() const { return detector_->name(); }
 
  private:
-  /// The edge under a detected segment, when enough of it can be tracked.
-  std::optional<EdgeFit> fitEdge(const cv::Mat& gray, const VisibleArea& area, const LineSegment& candidate,
+  /// The edge under a detected line, when enough of it can be tracked, and its bend by the lens.
+  struct NewLine {
+    EdgeFit edge;
+    LineBend bend;
+    LineCurve curve() const { return {edge.segment, bend}; }
+  };
+  std::optional<NewLine> fitEdge(const cv::Mat& gray, const VisibleArea& area, const LineCurve& candidate,
                                  FrameStatistics& statistics) const;
 
   DetectionParameters parameters_;

@@ -4,13 +4,16 @@
 
 namespace tet_line_tracker {
 
-void TrackTable::add(const LineSegment& segment, float contrast) {
+void TrackTable::add(const EdgeFit& edge, const LineBend& bend) {
   TrackedLine& line = lines_.emplace_back();
   line.id = next_id_++;
-  line.segment = segment;
+  line.segment = edge.segment;
+  line.sigma_px = edge.sigma_px;
+  line.covariance_px = edge.covariance_px;
   if (states_.size() < lines_.size()) states_.resize(lines_.size());
   TrackState& state = states_[lines_.size() - 1];
-  state.contrast = contrast;
+  state.contrast = edge.contrast;
+  state.bend = bend;
   state.template_due = true;
   state.start_parallax.setZero();
   state.end_parallax.setZero();

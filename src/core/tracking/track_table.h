@@ -7,7 +7,8 @@
 #include <Eigen/Core>
 
 #include "tet_line_tracker/flow/endpoint_tracker.h"
-#include "tet_line_tracker/geometry/line_segment.h"
+#include "tet_line_tracker/geometry/line_bend.h"
+#include "tet_line_tracker/refinement/line_refiner.h"
 #include "tet_line_tracker/tracking/line_frame.h"
 
 namespace tet_line_tracker {
@@ -16,6 +17,7 @@ namespace tet_line_tracker {
 struct TrackState {
   LineTemplate patches;   ///< what the line looked like at `reference`
   LineSegment reference;  ///< where `patches` were extracted [px]
+  LineBend bend;          ///< of the line as it is published, by the lens
   /// `patches` must be extracted again. A line that stands still keeps them, so that slow movement adds up.
   bool template_due{true};
   float contrast{0.0F};  ///< across the edge, positive where the left side is brighter [gray / px]
@@ -43,8 +45,8 @@ class TrackTable {
   const std::vector<TrackedLine>& lines() const { return lines_; }
   std::vector<TrackedLine>& lines() { return lines_; }
 
-  /// Starts a track with the next id.
-  void add(const LineSegment& segment, float contrast);
+  /// Starts a track with the next id on an edge; `bend`: of its line, by the lens.
+  void add(const EdgeFit& edge, const LineBend& bend);
 
   /// Removes the lost tracks and counts them by reason; the others keep their order.
   void removeLost(FrameStatistics& statistics);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -7,6 +8,7 @@
 
 #include "camera/field_of_view.h"
 #include "tet_line_tracker/camera/camera_model.h"
+#include "tet_line_tracker/camera/lens_bend.h"
 #include "tet_line_tracker/geometry/line_segment.h"
 #include "tet_line_tracker/tracking/line_frame.h"
 
@@ -33,15 +35,25 @@ class VisibleArea {
   /// 8-bit, of the size of the image: lines lie where it is not zero; empty: everywhere.
   const cv::Mat& mask() const { return mask_in_use_; }
 
-  /// Cuts `segment` to what can be normalised and counts that. False when less than `min_length` is left
-  /// [px]; the segment then stays as it is.
-  bool cutToFieldOfView(float min_length, LineSegment& segment, FrameStatistics& statistics) const;
+  /// How the lens bends lines in images of the present size.
+  const LensBend& lens() const { return lens_; }
+
+  /// Cuts `line` to the bounds, less `margin` px. False when nothing is left; the line then stays as it is.
+  bool cutToBounds(float margin, LineCurve& line) const;
+  /// Cuts `line` to what can be normalised and counts that. False when less than `min_length` is left [px];
+  /// the line then stays as it is.
+  bool cutToFieldOfView(float min_length, LineCurve& line, FrameStatistics& statistics) const;
+  /// LineCut bits of a line: which ends lie where bounds, mask or field of view end.
+  std::uint8_t cutsOf(const LineCurve& line) const;
 
  private:
+  bool sees(const Eigen::Vector2f& pixel) const;
+
   float border_;
   cv::Size size_;
   std::shared_ptr<const CameraModel> camera_;
   std::optional<FieldOfView> field_of_view_;  ///< of camera_ in images of size_
+  LensBend lens_;                             ///< likewise
   cv::Mat mask_, mask_in_use_;
 };
 

@@ -38,11 +38,11 @@ CameraCalibration readCamera(const fs::path& file) {
   if (projection != "pinhole") {
     throw std::runtime_error(where + "camera_model \"" + projection + "\" is not known; known: pinhole");
   }
-  const std::vector<double> size = yamlNumbers(root["resolution"], 2, where + "resolution");
+  yamlNumbers(root["resolution"], 2, where + "resolution");
   const std::vector<double> k = yamlNumbers(root["intrinsics"], 4, where + "intrinsics");
   CameraCalibration camera;
-  camera.width = static_cast<int>(size[0]);
-  camera.height = static_cast<int>(size[1]);
+  camera.width = yamlSize(root["resolution"][0], where + "resolution[0]");
+  camera.height = yamlSize(root["resolution"][1], where + "resolution[1]");
   camera.fx = k[0];
   camera.fy = k[1];
   camera.cx = k[2];
@@ -58,6 +58,8 @@ CameraCalibration readCamera(const fs::path& file) {
     throw std::runtime_error(where + "distortion_model \"" + model +
                              "\" is not known; known: radial-tangential, radtan, equidistant");
   }
+  const std::vector<std::string> broken = check(camera);
+  if (!broken.empty()) throw std::runtime_error(where + broken.front());
   return camera;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -9,10 +10,10 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "../encoded_image.h"
+
 namespace tet_line_tracker {
 namespace {
-
-using Bytes = std::vector<unsigned char>;
 
 bool isDigit(char c) {
   return std::isdigit(static_cast<unsigned char>(c)) != 0;
@@ -24,25 +25,6 @@ std::string digitsAt(const std::string& text, std::size_t begin, std::size_t& en
   while (end < text.size() && isDigit(text[end])) ++end;
   while (begin + 1 < end && text[begin] == '0') ++begin;
   return text.substr(begin, end - begin);
-}
-
-bool beginsWith(const Bytes& bytes, const Bytes& head) {
-  return bytes.size() >= head.size() && std::equal(head.begin(), head.end(), bytes.begin());
-}
-
-/// Programs may append a few bytes to a complete file.
-bool endsWith(const Bytes& bytes, const Bytes& tail) {
-  constexpr std::size_t kMaxAppended = 1024;
-  const auto begin = bytes.end() - static_cast<std::ptrdiff_t>(std::min(bytes.size(), kMaxAppended));
-  return std::search(begin, bytes.end(), tail.begin(), tail.end()) != bytes.end();
-}
-
-/// A decoder fills the missing part of a cut-off file with gray, or prints its own words; so look for the end
-/// mark first.
-bool isCutOff(const Bytes& bytes) {
-  if (beginsWith(bytes, {0x89, 'P', 'N', 'G'})) return !endsWith(bytes, {'I', 'E', 'N', 'D'});
-  if (beginsWith(bytes, {0xFF, 0xD8, 0xFF})) return !endsWith(bytes, {0xFF, 0xD9});
-  return false;
 }
 
 std::string sizeText(const cv::Size& size) {
@@ -81,7 +63,8 @@ std::vector<std::filesystem::path> listImages(const std::filesystem::path& folde
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return std::tolower(c); });
     const bool hidden = entry.path().filename().string().front() == '.';
-    if (!hidden && kExtensions.count(extension) != 0 && !entry.is_directory()) images.push_back(entry.path());
+    if (!hidden && kExtensions.count(extension) != 0 && entry.is_regular_file())
+      images.push_back(entry.path());
   }
   if (images.empty()) throw std::runtime_error(folder.string() + " holds no images");
   std::sort(images.begin(), images.end(), [](const auto& a, const auto& b) {
@@ -91,16 +74,19 @@ std::vector<std::filesystem::path> listImages(const std::filesystem::path& folde
 }
 
 cv::Mat readImage(const std::filesystem::path& path) {
+  // A fifo would wait for a writer.
+  if (!std::filesystem::is_regular_file(path)) throw std::runtime_error("cannot read " + path.string());
   std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) throw std::runtime_error("cannot read " + path.string());
-  const Bytes bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (isCutOff(bytes)) {
-    throw std::runtime_error(path.string() + " is cut off after " + std::to_string(bytes.size()) + " bytes");
-  }
+  if (!file) throw std::runtime_error("cannot read " + path.string());
+  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file),
+                                        std::istreambuf_iterator<char>()};
   constexpr int kAsStored = cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION;
   cv::Mat image;
-  if (!bytes.empty()) image = cv::imdecode(bytes, kAsStored);
-  if (image.empty()) throw std::runtime_error(path.string() + " is not an image that OpenCV can decode");
+  try {
+    image = decodePicture(bytes, kAsStored);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(path.string() + " " + error.what());
+  }
   if (image.type() != CV_8UC1 && image.type() != CV_8UC3 && image.type() != CV_16UC1) {
     throw std::runtime_error(path.string() + " has " + std::to_string(image.channels()) + " channels of " +
                              std::to_string(8 * image.elemSize1()) +

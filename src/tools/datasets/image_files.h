@@ -18,12 +18,13 @@ struct StampedFile {
 /// Order in which people number files: runs of digits compare by their value, so img2 comes before img10.
 bool naturalOrder(const std::string& a, const std::string& b);
 
-/// Image files of a folder in natural order of their names; hidden files and other types are left out.
+/// Image files of a folder in natural order of their names; hidden files, other types, and what is
+/// no regular file are left out.
 /// Throws std::runtime_error when `folder` is no folder or holds no image.
 std::vector<std::filesystem::path> listImages(const std::filesystem::path& folder);
 
 /// Decodes an image as it is stored, 8UC1, 8UC3 (BGR) or 16UC1. Throws std::runtime_error that names the
-/// file: not there, cut off, not decodable, or of another type.
+/// file: not there, cut off, damaged, not decodable, or of another type.
 cv::Mat readImage(const std::filesystem::path& path);
 
 /// Images in files, all of one size.

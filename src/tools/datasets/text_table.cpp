@@ -100,8 +100,10 @@ ros::Time TextRow::seconds(std::size_t i) const {
 }
 
 std::vector<TextRow> readTextTable(const std::filesystem::path& path, std::size_t min_fields) {
+  // A fifo would wait for a writer.
+  if (!std::filesystem::is_regular_file(path)) throw std::runtime_error("cannot read " + path.string());
   std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path)) throw std::runtime_error("cannot read " + path.string());
+  if (!file) throw std::runtime_error("cannot read " + path.string());
   std::vector<TextRow> rows;
   std::string line;
   for (std::size_t number = 1; std::getline(file, line); ++number) {

@@ -55,6 +55,9 @@ class VideoSequence final : public ImageSequence {
 Dataset openVideo(const std::filesystem::path& path, const DatasetOptions& options) {
   if (std::filesystem::is_directory(path))
     throw std::runtime_error(path.string() + " is a folder, not a video file");
+  // A fifo would wait for a writer.
+  if (!std::filesystem::is_regular_file(path))
+    throw std::runtime_error(path.string() + " is no regular file");
   Dataset dataset;
   dataset.camera = options.camera;
   dataset.images = std::make_unique<VideoSequence>(path.string(), options);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <functional>
 #include <memory>
@@ -54,6 +55,8 @@ void compareFrontEnds(const Sequence& sequence, std::size_t images) {
   LineTrackerParameters paper = ours(150);
   paper.method = "paper";
   contenders.push_back(trackerOf("method: paper", paper, sequence));
+  paper.detection.detector = "edge";
+  contenders.push_back(trackerOf("method: paper, detector: edge", paper, sequence));
 
   std::size_t reference = 0;
   for (std::size_t i = 0; i < contenders.size(); ++i) {

@@ -44,15 +44,15 @@ TEST(FieldOfView, LeavesSegmentsInViewAsTheyAre) {
 
 TEST(FieldOfView, CutsAtTheCircleAndKeepsTheRolesOfTheEnds) {
   const FieldOfView view = viewOf(kFisheye);
-  const auto end_cut = view.clip({{199.5F, 199.5F}, {399.0F, 199.5F}}, kMinLength);
+  const auto end_cut = view.clip(LineSegment{{199.5F, 199.5F}, {399.0F, 199.5F}}, kMinLength);
   ASSERT_TRUE(end_cut);
   EXPECT_EQ(end_cut->start, Eigen::Vector2f(199.5F, 199.5F));
   EXPECT_NEAR(end_cut->end.x(), 199.5F + kRadius, 0.01F);
-  const auto start_cut = view.clip({{399.0F, 199.5F}, {199.5F, 199.5F}}, kMinLength);
+  const auto start_cut = view.clip(LineSegment{{399.0F, 199.5F}, {199.5F, 199.5F}}, kMinLength);
   ASSERT_TRUE(start_cut);
   EXPECT_NEAR(start_cut->start.x(), 199.5F + kRadius, 0.01F);
   EXPECT_EQ(start_cut->end, Eigen::Vector2f(199.5F, 199.5F));
-  const auto both_cut = view.clip({{0.0F, 199.5F}, {399.0F, 199.5F}}, kMinLength);
+  const auto both_cut = view.clip(LineSegment{{0.0F, 199.5F}, {399.0F, 199.5F}}, kMinLength);
   ASSERT_TRUE(both_cut);
   EXPECT_NEAR(both_cut->start.x(), 199.5F - kRadius, 0.01F);
   EXPECT_NEAR(both_cut->end.x(), 199.5F + kRadius, 0.01F);
@@ -61,9 +61,9 @@ TEST(FieldOfView, CutsAtTheCircleAndKeepsTheRolesOfTheEnds) {
 TEST(FieldOfView, LeavesOutWhatIsTooShortInView) {
   const FieldOfView view = viewOf(kFisheye);
   const float border = 199.5F + kRadius;
-  EXPECT_FALSE(view.clip({{border - 29.0F, 199.5F}, {399.0F, 199.5F}}, kMinLength));
-  EXPECT_TRUE(view.clip({{border - 31.0F, 199.5F}, {399.0F, 199.5F}}, kMinLength));
-  EXPECT_FALSE(view.clip({{border + 1.0F, 100.0F}, {border + 1.0F, 300.0F}}, kMinLength));
+  EXPECT_FALSE(view.clip(LineSegment{{border - 29.0F, 199.5F}, {399.0F, 199.5F}}, kMinLength));
+  EXPECT_TRUE(view.clip(LineSegment{{border - 31.0F, 199.5F}, {399.0F, 199.5F}}, kMinLength));
+  EXPECT_FALSE(view.clip(LineSegment{{border + 1.0F, 100.0F}, {border + 1.0F, 300.0F}}, kMinLength));
   // A chord of twice the root of r^2 - d^2, both ends beyond the circle.
   const auto chord = [&](float length) {
     const float x = 199.5F + std::sqrt(kRadius * kRadius - 0.25F * length * length);

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include "bent_edge.h"
 #include "edge_images.h"
 #include "geometry/segment_index.h"
 #include "kernels/kernels.h"
@@ -74,7 +75,7 @@ TEST(EdgeDetector, FindsTrackedLinesNotAgain) {
   detector.detect(image, 30.0F, rest, hints);
   SegmentIndex tracked({0.05F, 1.0F, 0.5F});
   SegmentIndex found({0.05F, 1.0F, 0.5F});
-  for (const LineSegment& line : hints.tracked) tracked.add(line);
+  for (const LineCurve& line : hints.tracked) tracked.add(line);
   for (const LineSegment& line : rest) {
     EXPECT_FALSE(tracked.containsDuplicateOf(line));
     found.add(line);
@@ -247,6 +248,39 @@ TEST(EdgeDetector, GivesTheSameGradientAndPeaksWithEveryKernelTable) {
       ASSERT_EQ(rows.gradient[k].dy, expected.gradient[k].dy) << tables[i]->name;
     }
   }
+}
+
+TEST(EdgeDetector, FollowsALongStraightEdgeThroughTheLens) {
+  const auto camera = eurocCamera();
+  const LensBend lens(camera, 752, 480);
+  const LineSegment ends{{100.0F, 50.0F}, {640.0F, 60.0F}};
+  const cv::Mat image = BentEdge(camera, ends).image(80.0F, 1.0F);
+  EdgeDetector detector;
+  DetectionHints hints;
+  hints.lens = &lens;
+  std::vector<LineSegment> lines;
+  detector.detect(image, 30.0F, lines, hints);
+  EXPECT_LE(lines.size(), 3U);
+  EXPECT_GT(lines[0].length(), 500.0F);
+  // As straight lines of the image the same edge is in pieces.
+  detector.detect(image, 30.0F, lines);
+  EXPECT_LT(lines[0].length(), 150.0F);
+}
+
+TEST(EdgeDetector, DoesNotFindATrackedLineAgainThatTheLensBends) {
+  const auto camera = eurocCamera();
+  const LensBend lens(camera, 752, 480);
+  const LineSegment ends{{100.0F, 50.0F}, {640.0F, 60.0F}};
+  const cv::Mat image = BentEdge(camera, ends).image(80.0F, 1.0F);
+  EdgeDetector detector;
+  DetectionHints hints;
+  hints.lens = &lens;
+  std::vector<LineSegment> lines;
+  detector.detect(image, 30.0F, lines, hints);
+  ASSERT_FALSE(lines.empty());
+  for (const LineSegment& line : lines) hints.tracked.push_back(lens.curve(line));
+  detector.detect(image, 30.0F, lines, hints);
+  EXPECT_TRUE(lines.empty());
 }
 
 }  // namespace

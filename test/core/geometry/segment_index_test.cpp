@@ -1,6 +1,7 @@
 #include "geometry/segment_index.h"
 
 #include <cmath>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -52,6 +53,33 @@ TEST(SameEdge, AnIndexFindsWhatEveryPairWouldShow) {
     EXPECT_GT(held, 500);
     EXPECT_LT(held, 1990);
   }
+}
+
+TEST(SameEdge, FollowsTheBendOfALine) {
+  const DuplicateCriteria limits{0.05F, 1.5F, 0.3F};
+  // 8 px above its chord in the middle, on screen; at a quarter 6 px.
+  const LineCurve bent({{100.0F, 300.0F}, {500.0F, 300.0F}}, LineBend{{32.0F}});
+  const LineSegment on_curve{{180.0F, 294.9F}, {220.0F, 293.3F}};
+  EXPECT_TRUE(areDuplicates(bent, on_curve, limits));
+  EXPECT_TRUE(areDuplicates(on_curve, bent, limits));
+  EXPECT_FALSE(areDuplicates(bent, LineSegment{{180.0F, 300.0F}, {220.0F, 300.0F}}, limits))
+      << "on the chord";
+  // At the start the curve rises by 0.08: a piece in the direction of the chord is turned.
+  EXPECT_TRUE(areDuplicates(bent, LineSegment{{105.0F, 299.6F}, {145.0F, 296.8F}}, limits));
+  EXPECT_FALSE(areDuplicates(bent, LineSegment{{105.0F, 298.2F}, {145.0F, 298.9F}}, limits));
+}
+
+TEST(LineCurve, IsClippedWhereTheCurveLeavesTheBounds) {
+  const ImageBounds bounds = ImageBounds::ofImage(640, 480, 2.0F);
+  // The chord leaves the image at the bottom; the curve, 8 px above it in the middle, does so later.
+  const LineCurve bent({{100.0F, 470.0F}, {500.0F, 482.0F}}, LineBend{{32.0F}});
+  const std::optional<LineSegment> clipped = clip(bent, bounds);
+  ASSERT_TRUE(clipped);
+  EXPECT_EQ(clipped->start, bent.chord.start);
+  EXPECT_GT(clipped->end.x(), clip(bent.chord, bounds)->end.x() + 30.0F);
+  EXPECT_NEAR(clipped->end.y(), 477.0F, 0.05F);
+  EXPECT_NEAR(bent.distance(clipped->end), 0.0F, 0.01F);
+  EXPECT_FALSE(clip(LineCurve({{100.0F, 520.0F}, {500.0F, 520.0F}}, LineBend{{32.0F}}), bounds));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "tet_line_tracker/image/image_pyramid.h"
 
+#include <algorithm>
 #include <random>
 
 #include <gtest/gtest.h>

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "geometry/so3.h"
+
 namespace tet_line_tracker {
 namespace {
 
@@ -19,7 +21,7 @@ void addSamples(GyroIntegrator& gyro, std::int64_t first_ms, std::int64_t last_m
 
 /// What directions do when the frame itself turns by `turn` [rad].
 Eigen::Matrix3d directionsAfter(const Eigen::Vector3d& turn) {
-  return Eigen::AngleAxisd(-turn.norm(), turn.normalized()).toRotationMatrix();
+  return so3Exp(-turn).toRotationMatrix();
 }
 
 double angleBetween(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
@@ -109,10 +111,14 @@ TEST(GyroIntegrator, AJumpBackBeginsAnewAndALateSampleIsIgnored) {
   EXPECT_LT(angleBetween(*rotation, directionsAfter(0.1 * second)), 1e-7);
 }
 
-TEST(GyroIntegrator, SamplesThatAreNotFiniteAreIgnored) {
+TEST(GyroIntegrator, SamplesThatNoGyroscopeMeasuresAreIgnored) {
   GyroIntegrator gyro;
   gyro.add(0, Eigen::Vector3d::UnitX());
+  gyro.add(2 * kMs, Eigen::Vector3d(1e300, 0.0, 0.0));
+  gyro.add(3 * kMs, Eigen::Vector3d(1e160, 1e160, 1e160));
+  gyro.add(4 * kMs, Eigen::Vector3d(0.0, -1001.0, 0.0));
   gyro.add(5 * kMs, Eigen::Vector3d(NAN, 0.0, 0.0));
+  gyro.add(6 * kMs, Eigen::Vector3d(0.0, INFINITY, 0.0));
   gyro.add(10 * kMs, Eigen::Vector3d::UnitX());
   const auto rotation = gyro.rotation(0, 10 * kMs, kNoBias);
   ASSERT_TRUE(rotation);

@@ -166,6 +166,33 @@ TEST(MotionPrior, AWrongImuIsRefusedAndNeverWorseThanNone) {
   }
 }
 
+TEST(MotionPrior, LearnsABiasOfAFifthOfARadianPerSecondAtAnyRate) {
+  const Eigen::Vector3d bias(0.12, -0.16, 0.02);  // in the camera [rad/s]
+  for (const std::int64_t period_ms : {50, 5}) {
+    // The camera turns to and fro at 30 degrees per second.
+    const Eigen::Vector3d step(0.0, 0.03 * static_cast<double>(period_ms), 0.0);
+    const ImagePyramid views[] = {view(turned({0, 0, 0})), view(turned(step))};
+    for (const char* name : {"imu", "auto"}) {
+      MotionPrior both(prior(name));
+      both.setCamera(camera());
+      both.setImuRotation(kCameraFromImu);
+      for (std::int64_t k = 0; k <= 12; ++k) {
+        const Eigen::Vector3d velocity =
+            (k % 2 == 1 ? -1.0 : 1.0) * kDegree * step / (1e-3 * static_cast<double>(period_ms));
+        // Two samples in each period, so that none is interpolated across the turning point.
+        const std::int64_t end = k * period_ms * kMs;
+        const Eigen::Vector3d measured = kCameraFromImu.transpose() * (velocity + bias);
+        both.addAngularVelocity(end - period_ms * kMs + 1, measured);
+        both.addAngularVelocity(end, measured);
+        both.predict(views[k % 2], end);
+      }
+      EXPECT_LT((both.gyroBias() - bias).norm(), 0.02) << name << ", " << period_ms << " ms";
+      both.setImuRotation(turned({10.0, 0.0, 0.0}));
+      EXPECT_EQ(both.gyroBias(), Eigen::Vector3d(0.0, 0.0, 0.0)) << "another IMU has another bias";
+    }
+  }
+}
+
 TEST(MotionPrior, AStandingCameraIsNotTurnedByAWrongImu) {
   MotionPrior both(prior("auto"));
   both.setCamera(camera());

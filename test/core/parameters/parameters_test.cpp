@@ -1,5 +1,6 @@
 #include "tet_line_tracker/parameters/parameters.h"
 
+#include <limits>
 #include <stdexcept>
 
 #include <gtest/gtest.h>

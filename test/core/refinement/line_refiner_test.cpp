@@ -1,9 +1,13 @@
 #include "tet_line_tracker/refinement/line_refiner.h"
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "bent_edge.h"
+#include "tet_line_tracker/camera/lens_bend.h"
 
 namespace tet_line_tracker {
 namespace {
@@ -154,5 +158,71 @@ TEST(LineRefiner, ALineOutsideTheImageComesBackWithoutSupport) {
   EXPECT_EQ(refiner.fit(image, point, 20.0F).support, 0.0F);
 }
 
-}  // namespace
-}  // namespace tet_line_tracker
+TEST(LineRefiner, PutsBothEndsOfALineThatTheLensBendsOnItsEdge) {
+  const auto camera = eurocCamera();
+  const LensBend lens(camera, 752, 480);
+  const LineRefiner refiner(LineRefinerParameters{});
+  for (const LineSegment& truth :
+       {LineSegment{{180.0F, 60.0F}, {520.0F, 45.0F}}, LineSegment{{690.0F, 400.0F}, {680.0F, 120.0F}},
+        LineSegment{{60.0F, 260.0F}, {170.0F, 40.0F}}, LineSegment{{420.0F, 430.0F}, {330.0F, 440.0F}}}) {
+    const BentEdge edge(camera, truth);
+    const cv::Mat image = edge.image(60.0F, 1.0F);
+    LineSegment guess = truth;
+    guess.start += 0.7F * truth.normal();
+    guess.end -= 0.4F * truth.normal();
+    const LineCurve curve = lens.curve(guess);
+    const EdgeFit fit = refiner.fit(image, curve, refiner.contrastOf(image, curve));
+    EXPECT_GT(fit.support, 0.95F);
+    EXPECT_LT(std::abs(edge.distance(fit.segment.start)), 0.06);
+    EXPECT_LT(std::abs(edge.distance(fit.segment.end)), 0.06);
+    // A straight line through the same samples is off by a part of the sagitta.
+    const float sagitta = std::abs(curve.bend.offset(0.5F));
+    const EdgeFit straight = refiner.fit(image, guess, refiner.contrastOf(image, guess));
+    if (sagitta > 1.0F) {
+      EXPECT_GT(std::abs(edge.distance(straight.segment.start)), 0.4);
+      TEST(LineRefiner, ALineThatIsNowhereComesBackWithoutSupport) {
+        const LineRefiner refiner(LineRefinerParameters{});
+        const cv::Mat image = edgeImage(0.0F, 60.0F, 0.0F, kMiddle);
+        constexpr float kInfinity = std::numeric_limits<float>::infinity();
+        for (const float value :
+             {std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity, 1e30F, -1e18F}) {
+          for (const LineSegment& line :
+               {LineSegment{{value, 99.6F}, {160.0F, 99.6F}}, LineSegment{{80.0F, 99.6F}, {160.0F, value}},
+                LineSegment{{value, value}, {value, value}}}) {
+            EXPECT_EQ(refiner.contrastOf(image, line), 0.0F) << value;
+            EXPECT_EQ(refiner.fit(image, line, 60.0F).support, 0.0F) << value;
+          }
+        }
+      }
+
+      TEST(LineRefiner, TheCovarianceOfTheEndsIsThatOfTheirErrors) {
+        const LineRefiner refiner(LineRefinerParameters{});
+        const LineSegment truth = along(0.4F, 90.0F, kMiddle);
+        std::mt19937 generator(11);
+        std::normal_distribution<float> normal(0.0F, 1.0F);
+        double start_squares = 0.0, end_squares = 0.0;
+        constexpr int kTrials = 200;
+        const cv::Mat clean = edgeImage(0.4F, 25.0F, 0.0F, kMiddle);
+        for (int i = 0; i < kTrials; ++i) {
+          cv::Mat image = clean.clone();
+          for (int y = 0; y < kHeight; ++y) {
+            for (int x = 0; x < kWidth; ++x) {
+              image.at<std::uint8_t>(y, x) = cv::saturate_cast<std::uint8_t>(
+                  static_cast<float>(clean.at<std::uint8_t>(y, x)) + 4.0F * normal(generator));
+            }
+          }
+          const EdgeFit fit = refiner.fit(image, truth, refiner.contrastOf(image, truth));
+          const float start = truth.distance(fit.segment.start);
+          const float end = truth.distance(fit.segment.end);
+          start_squares += static_cast<double>(start * start / fit.covariance_px[0]);
+          end_squares += static_cast<double>(end * end / fit.covariance_px[2]);
+          EXPECT_LT(fit.covariance_px[1] * fit.covariance_px[1], fit.covariance_px[0] * fit.covariance_px[2]);
+        }
+        std::printf("normalised error %.2f %.2f\n", std::sqrt(start_squares / kTrials),
+                    std::sqrt(end_squares / kTrials));
+        EXPECT_NEAR(std::sqrt(start_squares / kTrials), 1.0, 0.25);
+        EXPECT_NEAR(std::sqrt(end_squares / kTrials), 1.0, 0.25);
+      }
+
+    }  // namespace
+  }    // namespace tet_line_tracker

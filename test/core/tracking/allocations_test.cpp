@@ -76,8 +76,8 @@ TEST_P(Allocations, AreNoneInSteadyState) {
   LineTrackerParameters parameters;
   parameters.method = GetParam();
   parameters.motion.prior = "image";
-  // The detector runs again and again, in steady state too; those of OpenCV take from the heap.
-  parameters.detection.detector = "edge";
+  parameters.detection.detector = "edge";  // LSD is OpenCV's, and takes memory
+  // The detector runs again and again, in steady state too.
   parameters.detection.max_lines = parameters.detection.min_lines = 1000;
   LineTracker tracker(parameters);
   CameraCalibration calibration;

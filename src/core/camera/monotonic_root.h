@@ -10,11 +10,11 @@ struct ValueAndSlope {
   double slope;
 };
 
-/// The x in [low, high] at which `function(x).value` is `target`, for a function that grows on that range;
-/// the nearer end when the target lies outside. Newton, held inside a bracket that bisection shrinks: it
-/// always arrives.
+/// The x in [low, high] at which `function(x).value` is `target`, for a function that increases there; the
+/// nearer end when the target lies outside. Newton, held inside a bracket that bisection shrinks: it always
+/// arrives.
 template <class Function>
-double solveIncreasing(const Function& function, double target, double low, double high) {
+double solveMonotonic(const Function& function, double target, double low, double high) {
   double x = std::fmin(std::fmax(target, low), high);
   for (int i = 0; i < 100; ++i) {
     const ValueAndSlope f = function(x);
@@ -30,7 +30,7 @@ double solveIncreasing(const Function& function, double target, double low, doub
 
 /// Largest x up to `limit` before which `slope` stays positive, found in steps and then by bisection.
 template <class Slope>
-double endOfIncrease(const Slope& slope, double step, double limit) {
+double endOfMonotonicRange(const Slope& slope, double step, double limit) {
   const int steps = static_cast<int>(limit / step);
   for (int i = 1; i <= steps; ++i) {
     if (slope(i * step) > 0.0) continue;
