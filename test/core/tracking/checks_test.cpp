@@ -28,7 +28,10 @@ class Checks : public testing::Test {
 
   /// A track found where it was predicted, on an edge from end to end.
   TrackState& add(const LineSegment& line) {
-    tracks_.add(line, 20.0F);
+    EdgeFit edge;
+    edge.segment = line;
+    edge.contrast = 20.0F;
+    tracks_.add(edge, LineBend{});
     TrackState& state = tracks_.state(tracks_.size() - 1);
     state.predicted = state.followed = line;
     return state;

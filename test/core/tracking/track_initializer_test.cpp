@@ -88,7 +88,10 @@ TEST_F(TrackInitializerTest, StartsNewTracksFarFromThoseThereAre) {
   // The tracks of a crowd on the left, beside the edges there.
   for (int i = 0; i < 12; ++i) {
     const float y = 20.0F + 38.0F * static_cast<float>(i);
-    tracks_.add({{10.0F, y}, {200.0F, y + 10.0F}}, 20.0F);
+    EdgeFit edge;
+    edge.segment = {{10.0F, y}, {200.0F, y + 10.0F}};
+    edge.contrast = 20.0F;
+    tracks_.add(edge, LineBend{});
   }
   parameters_.max_lines = 24;
   addTracks(rectanglesImage(kSize, rectangles));

@@ -10,11 +10,18 @@ LineSegment number(int i) {
   return {{10.0F, y}, {90.0F, y}};
 }
 
+EdgeFit edgeOn(const LineSegment& line, float contrast) {
+  EdgeFit edge;
+  edge.segment = line;
+  edge.contrast = contrast;
+  return edge;
+}
+
 TEST(TrackTable, NewTracksHaveIdsNeverUsedBeforeAndBeginAtAgeOneWithoutParallax) {
   TrackTable tracks;
   FrameStatistics statistics;
   for (int i = 0; i < 3; ++i) {
-    tracks.add(number(i), 5.0F);
+    tracks.add(edgeOn(number(i), 5.0F), LineBend{});
     TrackState& state = tracks.state(tracks.size() - 1);
     EXPECT_FALSE(state.lost());
     EXPECT_TRUE(state.start_parallax.isZero() && state.end_parallax.isZero());
@@ -26,15 +33,15 @@ TEST(TrackTable, NewTracksHaveIdsNeverUsedBeforeAndBeginAtAgeOneWithoutParallax)
     state.loss = LossReason::kFlow;
     tracks.removeLost(statistics);
   }
-  tracks.add(number(3), 5.0F);
+  tracks.add(edgeOn(number(3), 5.0F), LineBend{});
   tracks.clear();
-  tracks.add(number(4), 5.0F);
+  tracks.add(edgeOn(number(4), 5.0F), LineBend{});
   EXPECT_EQ(tracks.line(0).id, 4U);
 }
 
 TEST(TrackTable, RemovesTheLostTracksAndCountsThemByReason) {
   TrackTable tracks;
-  for (int i = 0; i < 6; ++i) tracks.add(number(i), static_cast<float>(i));
+  for (int i = 0; i < 6; ++i) tracks.add(edgeOn(number(i), static_cast<float>(i)), LineBend{});
   tracks.state(0).loss = LossReason::kAngle;
   tracks.state(2).loss = LossReason::kMask;
   tracks.state(3).loss = LossReason::kAngle;
@@ -48,7 +55,7 @@ TEST(TrackTable, RemovesTheLostTracksAndCountsThemByReason) {
 
 TEST(TrackTable, TheOtherTracksKeepTheirOrderAndTheirState) {
   TrackTable tracks;
-  for (int i = 0; i < 6; ++i) tracks.add(number(i), static_cast<float>(i));
+  for (int i = 0; i < 6; ++i) tracks.add(edgeOn(number(i), static_cast<float>(i)), LineBend{});
   for (const std::size_t i : {0U, 2U, 3U}) tracks.state(i).loss = LossReason::kAngle;
   FrameStatistics statistics;
   tracks.removeLost(statistics);
