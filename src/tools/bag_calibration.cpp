@@ -36,7 +36,7 @@ std::shared_ptr<const CameraModel> BagCalibration::modelFor(const ros::Time& sta
   for (; next_ != infos_.cend() && next_->first <= stamp; ++next_) take(next_->second);
   if (infos_.empty()) return nullptr;
   const CalibrationInput::Model model = input_.modelFor(width, height);
-  if (model.complaint) complain(where_ + ": " + *model.complaint);
+  if (model.warning) complain(where_ + ": " + *model.warning);
   return model.camera;
 }
 

@@ -6,7 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include "geometry/coverage_grid.h"
 #include "tet_line_tracker/image/image_pyramid.h"
 #include "tet_line_tracker/tracking/frame_sequence.h"
 #include "tracking/stopwatch.h"
@@ -44,9 +43,7 @@ class LineTracker::Implementation {
   void followTrack(const MotionPrediction& motion, TrackedLine& line, TrackState& state) const;
   void refine();
   void check();
-  void predictParallax();
   void detect(const cv::Mat& gray);
-  float coverage() const;
   void extractTemplates();
   void markCuts();
 
@@ -84,7 +81,7 @@ FrameResult LineTracker::Implementation::process(const cv::Mat& gray, std::int64
   refine();
   statistics.refine_ms = stage.lap();
   check();
-  if (method_.motion.predict_parallax) predictParallax();
+  if (method_.motion.predict_parallax) tracks_.predictParallax();
   statistics.flow_ms += stage.lap();
   detect(gray);
   statistics.detect_ms = stage.lap();
@@ -136,19 +133,8 @@ void LineTracker::Implementation::followTrack(const MotionPrediction& motion, Tr
                                          motion.rotation * line.end_normalized.homogeneous());
   }
   const EndpointFlow flow = method_.flow->track(state.patches, pyramid_, expected);
-  switch (flow.status) {
-    case EndpointFlow::Status::kNoSolution:
-      state.loss = LossReason::kFlow;
-      return;
-    case EndpointFlow::Status::kOutside:
-      state.loss = LossReason::kBorder;
-      return;
-    case EndpointFlow::Status::kHighResidual:
-      state.loss = LossReason::kResidual;
-      return;
-    case EndpointFlow::Status::kTracked:
-      break;
-  }
+  state.loss = lossOf(flow.status);
+  if (state.lost()) return;
   // Inside the dead band a line keeps its ends, which noise would otherwise let wander along it.
   const float moved = std::max((flow.segment.start - state.reference.start).norm(),
                                (flow.segment.end - state.reference.end).norm());
@@ -183,31 +169,18 @@ void LineTracker::Implementation::check() {
   tracks_.removeLost(statistics);
 }
 
-/// The movement across a line that the rotation of the camera does not explain will go on; along it the flow
-/// knows little. A part of it only, so that an error decays.
-void LineTracker::Implementation::predictParallax() {
-  constexpr float kDecay = 0.8F;
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    const LineSegment& found = tracks_.line(i).segment;
-    TrackState& state = tracks_.state(i);
-    const Eigen::Vector2f normal = state.rotated.normal();
-    state.start_parallax = -kDecay * found.distance(state.rotated.start) * normal;
-    state.end_parallax = -kDecay * found.distance(state.rotated.end) * normal;
-  }
-}
-
 void LineTracker::Implementation::detect(const cv::Mat& gray) {
   LineFrame& frame = frames_.frame();
   detection_.images_in_epoch = frame.image_count;
   ++detection_.images_since_detection;
   detection_.lines = tracks_.size();
-  detection_.coverage = coverage();
+  detection_.coverage = tracks_.coverage(gray.size());
   if (method_.detection_policy->isDue(detection_)) {
     method_.initializer->addTracks(gray, area_, tracks_, frame.statistics);
     frame.detected = true;
     detection_.images_since_detection = 0;
     detection_.lines_after_detection = tracks_.size();
-    detection_.coverage = coverage();
+    detection_.coverage = tracks_.coverage(gray.size());
     detection_.coverage_after_detection = detection_.coverage;
   }
   frame.statistics.coverage = detection_.coverage;
@@ -217,12 +190,6 @@ void LineTracker::Implementation::markCuts() {
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     tracks_.line(i).cut = area_.cutsOf({tracks_.line(i).segment, tracks_.state(i).bend});
   }
-}
-
-float LineTracker::Implementation::coverage() const {
-  CoverageGrid grid(pyramid_.level(0).cols, pyramid_.level(0).rows);
-  for (const TrackedLine& line : tracks_.lines()) grid.add(line.segment);
-  return grid.coverage();
 }
 
 void LineTracker::Implementation::extractTemplates() {

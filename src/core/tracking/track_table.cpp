@@ -2,7 +2,23 @@
 
 #include <utility>
 
+#include "geometry/coverage_grid.h"
+
 namespace tet_line_tracker {
+
+LossReason lossOf(EndpointFlow::Status status) {
+  switch (status) {
+    case EndpointFlow::Status::kNoSolution:
+      return LossReason::kFlow;
+    case EndpointFlow::Status::kOutside:
+      return LossReason::kBorder;
+    case EndpointFlow::Status::kHighResidual:
+      return LossReason::kResidual;
+    case EndpointFlow::Status::kTracked:
+      break;
+  }
+  return LossReason::kCount;
+}
 
 void TrackTable::add(const EdgeFit& edge, const LineBend& bend) {
   TrackedLine& line = lines_.emplace_back();
@@ -35,6 +51,24 @@ void TrackTable::removeLost(FrameStatistics& statistics) {
   }
   lines_.resize(kept);
   statistics.tracks_kept = static_cast<std::uint32_t>(kept);
+}
+
+void TrackTable::predictParallax() {
+  // A part of it only, so that an error decays.
+  constexpr float kDecay = 0.8F;
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const LineSegment& found = lines_[i].segment;
+    TrackState& state = states_[i];
+    const Eigen::Vector2f normal = state.rotated.normal();
+    state.start_parallax = -kDecay * found.distance(state.rotated.start) * normal;
+    state.end_parallax = -kDecay * found.distance(state.rotated.end) * normal;
+  }
+}
+
+float TrackTable::coverage(const cv::Size& size) const {
+  CoverageGrid grid(size.width, size.height);
+  for (const TrackedLine& line : lines_) grid.add(line.segment);
+  return grid.coverage();
 }
 
 }  // namespace tet_line_tracker

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <opencv2/core.hpp>
 
 #include "tet_line_tracker/flow/endpoint_tracker.h"
 #include "tet_line_tracker/geometry/line_bend.h"
@@ -36,6 +37,9 @@ struct TrackState {
   bool lost() const { return loss != LossReason::kCount; }
 };
 
+/// Why a line is lost with this outcome of its flow; kCount: it is not.
+LossReason lossOf(EndpointFlow::Status status);
+
 /// The tracks of an image, oldest first.
 class TrackTable {
  public:
@@ -50,6 +54,13 @@ class TrackTable {
 
   /// Removes the lost tracks and counts them by reason; the others keep their order.
   void removeLost(FrameStatistics& statistics);
+
+  /// The movement across a line that the rotation of the camera does not explain will go on in the next
+  /// image; along it the flow knows little.
+  void predictParallax();
+
+  /// Share of the cells of an 8x6 grid over an image of this size [px] that lines cross, 0..1.
+  float coverage(const cv::Size& size) const;
 
   void clear() { lines_.clear(); }
 
