@@ -162,6 +162,7 @@ std::optional<PointView> DepthTruth::view(const WorldPoint& point, std::int64_t 
   if (!pixel) return std::nullopt;
   PointView view;
   view.pixel = *pixel;
+  view.in_camera = in_camera;
   const CameraCalibration& calibration = camera_->calibration();
   view.in_picture =
       ImageBounds::ofImage(calibration.width, calibration.height).contains(pixel->cast<float>());

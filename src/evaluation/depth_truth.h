@@ -19,6 +19,7 @@ class DepthTruth : public Truth {
   DepthTruth(PoseTrack world_from_camera, std::shared_ptr<const CameraModel> camera);
   void addDepth(std::int64_t stamp_ns, const cv::Mat& depth_mm);
 
+  const CameraModel& camera() const override { return *camera_; }
   std::optional<WorldPoint> lift(std::int64_t stamp_ns, const Eigen::Vector2d& pixel,
                                  const Eigen::Vector2d& normal) const override;
   std::optional<PointView> view(const WorldPoint& point, std::int64_t stamp_ns) const override;

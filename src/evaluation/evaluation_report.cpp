@@ -17,6 +17,7 @@ Values valuesOf(const TrackMeasures& m) {
                 {"tracks", static_cast<double>(m.tracks)},
                 {"lines_per_image", m.lines_per_image},
                 {"coverage", m.coverage},
+                {"line_length_px", m.line_length},
                 {"track_length", m.track_length},
                 {"detections", m.detections},
                 {"matches_per_pair", m.matches_per_pair},
@@ -44,6 +45,47 @@ Values valuesOf(const TrackMeasures& m) {
                     {"detect_ms", m.detect_ms},
                     {"undistort_ms", m.undistort_ms}};
   values.insert(values.end(), rest.begin(), rest.end());
+  return values;
+}
+
+struct LengthClass {
+  std::string name;
+  AbsoluteErrors errors;
+};
+
+std::vector<LengthClass> lengthClasses(const AbsoluteMeasures& absolute) {
+  std::vector<LengthClass> classes;
+  const auto& lengths = AbsoluteMeasures::kLengths;
+  for (std::size_t i = 0; i < absolute.classes.size(); ++i) {
+    const std::string low = std::to_string(std::lround(lengths[i]));
+    const bool last = i + 1 == absolute.classes.size();
+    classes.push_back(
+        {last ? low + "-up" : low + "-" + std::to_string(std::lround(lengths[i + 1])), absolute.classes[i]});
+  }
+  classes.push_back({"all", absolute.all});
+  return classes;
+}
+
+/// The same for absolute errors.
+Values absoluteValuesOf(const AbsoluteMeasures& absolute) {
+  Values values{{"tracks_per_edge", absolute.tracks_per_edge}};
+  for (const LengthClass& c : lengthClasses(absolute)) {
+    std::string prefix = "absolute_" + c.name + "_";
+    std::replace(prefix.begin(), prefix.end(), '-', '_');
+    const AbsoluteErrors& e = c.errors;
+    const Values rest{{"lines", static_cast<double>(e.lines)},
+                      {"judged", static_cast<double>(e.judged)},
+                      {"ambiguous", static_cast<double>(e.ambiguous)},
+                      {"worse_end_median_px", e.worse_median},
+                      {"worse_end_p90_px", e.worse_p90},
+                      {"middle_median_px", e.middle_median},
+                      {"middle_p90_px", e.middle_p90},
+                      {"normalized_ends", e.normalized},
+                      {"normalized_ends_rms", e.normalized_rms},
+                      {"normalized_worse_end_median", e.normalized_worse},
+                      {"normalized_middle", e.normalized_middle}};
+    for (const auto& [name, value] : rest) values.emplace_back(prefix + name, value);
+  }
   return values;
 }
 
@@ -102,26 +144,39 @@ void writePairs(std::ostream& out, const std::vector<PairError>& pairs) {
   });
 }
 
+std::size_t nameWidth(const std::vector<EvaluatedBag>& bags) {
+  std::size_t width = 3;
+  for (const EvaluatedBag& bag : bags) width = std::max(width, bag.name.size());
+  return width;
+}
+
+void writeRow(std::ostream& out, const std::string& name, std::size_t width,
+              const std::vector<std::string>& cells) {
+  out << name << std::string(width - name.size(), ' ');
+  for (const std::string& cell : cells) {
+    out << " " << std::string(cell.size() < 6 ? 6 - cell.size() : 0, ' ') << cell;
+  }
+  out << "\n";
+}
+
+std::string cell(double value, const char* format) {
+  return number(value, format, "-");
+}
+
 }  // namespace
 
 void writeText(std::ostream& out, const std::vector<EvaluatedBag>& bags) {
-  std::size_t width = 3;
-  for (const EvaluatedBag& bag : bags) width = std::max(width, bag.name.size());
-  const auto pad = [width](const std::string& text) { return text + std::string(width - text.size(), ' '); };
-  const auto row = [&out](const std::string& name, const std::vector<std::string>& cells) {
-    out << name;
-    for (const std::string& cell : cells) {
-      out << " " << std::string(cell.size() < 6 ? 6 - cell.size() : 0, ' ') << cell;
-    }
-    out << "\n";
+  const std::size_t width = nameWidth(bags);
+  const auto row = [&](const std::string& name, const std::vector<std::string>& cells) {
+    writeRow(out, name, width, cells);
   };
-  row(pad("bag"), {"truth", "images", "lines", "cover%", "<2px%", "<1px%", "err", "drift5", "10", "20", "30",
-                   "length", "clean", "surv%", "sigma", "ms", "ms p99", "homog%"});
+  row("bag", {"truth", "images", "lines", "px", "cover%", "<2px%", "<1px%", "err", "drift5", "10", "20", "30",
+              "length", "clean", "surv%", "sigma", "ms", "ms p99", "homog%"});
   for (const EvaluatedBag& bag : bags) {
     const TrackMeasures& m = bag.measures;
-    const auto text = [](double value, const char* format) { return number(value, format, "-"); };
-    row(pad(bag.name),
-        {bag.truth, std::to_string(m.images), text(m.lines_per_image, "%.1f"),
+    const auto& text = cell;
+    row(bag.name,
+        {bag.truth, std::to_string(m.images), text(m.lines_per_image, "%.1f"), text(m.line_length, "%.1f"),
          text(100.0 * m.coverage, "%.1f"), text(100.0 * m.inlier_ratio, "%.2f"),
          text(100.0 * m.tight_inlier_ratio, "%.2f"), text(m.median_error, "%.3f"), text(m.drift[0], "%.3f"),
          text(m.drift[1], "%.3f"), text(m.drift[2], "%.3f"), text(m.drift[3], "%.3f"),
@@ -131,13 +186,46 @@ void writeText(std::ostream& out, const std::vector<EvaluatedBag>& bags) {
   }
 }
 
+void writeAbsoluteText(std::ostream& out, const std::vector<EvaluatedBag>& bags) {
+  const std::size_t width = nameWidth(bags);
+  writeRow(out, "bag", width,
+           {"length", "lines", "judged%", "ambig%", "worse", "worse90", "middle", "mid90", "norm", "rms",
+            "normworse", "normmid", "tracks/edge"});
+  for (const EvaluatedBag& bag : bags) {
+    for (const LengthClass& c : lengthClasses(bag.absolute.value_or(AbsoluteMeasures()))) {
+      const AbsoluteErrors& e = c.errors;
+      const auto percent = [&](std::size_t part) {
+        return cell(100.0 * static_cast<double>(part) / static_cast<double>(e.lines), "%.1f");
+      };
+      const bool all = c.name == "all";
+      if (!bag.absolute && !all) continue;
+      writeRow(out, bag.name, width,
+               {c.name, bag.absolute ? std::to_string(e.lines) : "-", percent(e.judged), percent(e.ambiguous),
+                cell(e.worse_median, "%.3f"), cell(e.worse_p90, "%.3f"), cell(e.middle_median, "%.3f"),
+                cell(e.middle_p90, "%.3f"), cell(e.normalized, "%.2f"), cell(e.normalized_rms, "%.2f"),
+                cell(e.normalized_worse, "%.2f"), cell(e.normalized_middle, "%.2f"),
+                all && bag.absolute ? cell(bag.absolute->tracks_per_edge, "%.2f") : "-"});
+    }
+  }
+}
+
 void writeCsv(std::ostream& out, const std::vector<EvaluatedBag>& bags) {
+  const bool absolute =
+      std::any_of(bags.begin(), bags.end(), [](const EvaluatedBag& bag) { return bag.absolute.has_value(); });
   out << "bag,truth";
   for (const auto& value : valuesOf({})) out << "," << value.first;
+  if (absolute) {
+    for (const auto& value : absoluteValuesOf({})) out << "," << value.first;
+  }
   out << "\n";
   for (const EvaluatedBag& bag : bags) {
     out << quoted(bag.name) << "," << bag.truth;
     for (const auto& value : valuesOf(bag.measures)) out << "," << number(value.second, "%.9g", "");
+    if (absolute) {
+      for (const auto& value : absoluteValuesOf(bag.absolute.value_or(AbsoluteMeasures()))) {
+        out << "," << (bag.absolute ? number(value.second, "%.9g", "") : "");
+      }
+    }
     out << "\n";
   }
 }
@@ -148,6 +236,11 @@ void writeJson(std::ostream& out, const std::vector<EvaluatedBag>& bags, bool wi
     out << "{\"bag\": " << quoted(bag.name) << ", \"truth\": " << quoted(bag.truth);
     for (const auto& [name, value] : valuesOf(m)) {
       out << ",\n  " << quoted(name) << ": " << number(value, "%.9g", "null");
+    }
+    if (bag.absolute) {
+      for (const auto& [name, value] : absoluteValuesOf(*bag.absolute)) {
+        out << ",\n  " << quoted(name) << ": " << number(value, "%.9g", "null");
+      }
     }
     out << ",\n  \"error_histogram\": ";
     writeHistogram(out, m.pairs);

@@ -17,6 +17,7 @@ constexpr double kBesideLine = 1.5;
 // Something must stand clearly before a point to hide it: the point may lie a little beside its surface.
 constexpr double kHiddenBy = 0.02;          // [m]
 constexpr double kHiddenByRelative = 0.01;  // of the distance
+constexpr double kOnSurface = 0.002;        // for points exactly on theirs [m]
 
 }  // namespace
 
@@ -56,9 +57,9 @@ bool SceneTruth::standsInTheWay(const Screen& screen, const Eigen::Vector3d& fro
   return across >= 0.0 && across <= 1.0 && up >= 0.0 && up <= 1.0;
 }
 
-bool SceneTruth::hidden(const Eigen::Vector3d& from, const Eigen::Vector3d& to, std::int64_t stamp_ns) const {
+bool SceneTruth::hidden(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double until,
+                        std::int64_t stamp_ns) const {
   const Eigen::Vector3d way = to - from;
-  const double until = 1.0 - kHiddenByRelative - kHiddenBy / way.norm();
   for (const Screen& screen : still_) {
     if (standsInTheWay(screen, from, way, until)) return true;
   }
@@ -103,16 +104,26 @@ std::optional<PointView> SceneTruth::view(const WorldPoint& point, std::int64_t 
   const auto pose = world_from_camera_.at(stamp_ns);
   if (!pose) return std::nullopt;
   const Eigen::Vector3d in_world = scene_.pointAt({point.surface, point.position.head<2>()}, stamp_ns);
-  const auto pixel = camera_->project(pose->inverse() * in_world);
+  const Eigen::Vector3d in_camera = pose->inverse() * in_world;
+  const auto pixel = camera_->project(in_camera);
   if (!pixel) return std::nullopt;
 
   PointView view;
   view.pixel = *pixel;
+  view.in_camera = in_camera;
   const CameraCalibration& calibration = camera_->calibration();
   view.in_picture =
       ImageBounds::ofImage(calibration.width, calibration.height).contains(pixel->cast<float>());
-  view.hidden = view.in_picture && hidden(pose->translation(), in_world, stamp_ns);
+  const double until = 1.0 - kHiddenByRelative - kHiddenBy / in_camera.norm();
+  view.hidden = view.in_picture && hidden(pose->translation(), in_world, until, stamp_ns);
   return view;
+}
+
+bool SceneTruth::isHidden(const Eigen::Vector3d& in_world, std::int64_t stamp_ns) const {
+  const auto pose = world_from_camera_.at(stamp_ns);
+  if (!pose) return true;
+  const double distance = (in_world - pose->translation()).norm();
+  return hidden(pose->translation(), in_world, 1.0 - kOnSurface / distance, stamp_ns);
 }
 
 }  // namespace tet_line_tracker

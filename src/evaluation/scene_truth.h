@@ -17,9 +17,17 @@ class SceneTruth : public Truth {
   /// `world_from_camera`: at least the poses of all images.
   SceneTruth(SceneGeometry scene, PoseTrack world_from_camera, std::shared_ptr<const CameraModel> camera);
 
+  const CameraModel& camera() const override { return *camera_; }
   std::optional<WorldPoint> lift(std::int64_t stamp_ns, const Eigen::Vector2d& pixel,
                                  const Eigen::Vector2d& normal) const override;
   std::optional<PointView> view(const WorldPoint& point, std::int64_t stamp_ns) const override;
+
+  const std::vector<TrueEdge>& edges() const { return scene_.edges(); }
+  std::optional<Eigen::Isometry3d> worldFromCamera(std::int64_t stamp_ns) const {
+    return world_from_camera_.at(stamp_ns);
+  }
+  /// Something stands before a point that lies exactly on a surface of the world, an edge of it included.
+  bool isHidden(const Eigen::Vector3d& in_world, std::int64_t stamp_ns) const;
 
  private:
   /// A rectangle at one time, made ready for the question whether it stands in a way.
@@ -30,7 +38,9 @@ class SceneTruth : public Truth {
   Screen screenOf(std::size_t rectangle, std::int64_t stamp_ns) const;
   static bool standsInTheWay(const Screen& screen, const Eigen::Vector3d& from, const Eigen::Vector3d& way,
                              double until);
-  bool hidden(const Eigen::Vector3d& from, const Eigen::Vector3d& to, std::int64_t stamp_ns) const;
+  /// `until`: share of the way that must be free.
+  bool hidden(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double until,
+              std::int64_t stamp_ns) const;
 
   std::vector<Screen> still_;        ///< rectangles that do not move
   std::vector<std::size_t> moving_;  ///< indices of the others

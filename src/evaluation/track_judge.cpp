@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "undistorted_line.h"
+
 namespace tet_line_tracker {
 namespace {
 
@@ -16,34 +18,32 @@ double median(std::vector<double>& values) {
 
 }  // namespace
 
-LiftedSegment::LiftedSegment(const Truth& truth, std::int64_t stamp_ns, const LineSegment& segment)
+LiftedSegment::LiftedSegment(const Truth& truth, std::int64_t stamp_ns, const TrackedLine& line)
     : truth_(truth) {
-  const Eigen::Vector2d start = segment.start.cast<double>();
-  const Eigen::Vector2d along = segment.end.cast<double>() - start;
-  const Eigen::Vector2d normal = Eigen::Vector2d(along.y(), -along.x()).normalized();
+  const UndistortedLine undistorted(truth.camera(), line);
   for (std::size_t i = 0; i < kPoints; ++i) {
     // Each point stands for a ninth of the segment, itself in the middle: the very ends are often off the
     // edge.
     const double fraction = (static_cast<double>(i) + 0.5) / kPoints;
-    points_[i] = truth.lift(stamp_ns, start + fraction * along, normal);
+    const auto sample = undistorted.at(fraction);
+    if (sample) points_[i] = truth.lift(stamp_ns, sample->pixel, sample->normal);
   }
 }
 
 std::optional<LiftedSegment::Error> LiftedSegment::errorOf(std::int64_t stamp_ns,
-                                                           const LineSegment& other) const {
+                                                           const TrackedLine& other) const {
   constexpr std::size_t kEnough = 3;
-  const Eigen::Vector2d start = other.start.cast<double>();
-  const Eigen::Vector2d along = other.end.cast<double>() - start;
-  const Eigen::Vector2d normal = Eigen::Vector2d(along.y(), -along.x()).normalized();
+  const UndistortedLine undistorted(truth_.camera(), other);
   std::vector<double> inside;
   std::vector<double> anywhere;
   for (const auto& point : points_) {
     if (!point) continue;
     const auto view = truth_.view(*point, stamp_ns);
     if (!view || view->hidden) continue;
-    const double distance = normal.dot(view->pixel - start);
-    anywhere.push_back(distance);
-    if (view->in_picture) inside.push_back(distance);
+    const auto distance = undistorted.distance(view->pixel, view->in_camera);
+    if (!distance) continue;
+    anywhere.push_back(*distance);
+    if (view->in_picture) inside.push_back(*distance);
   }
   std::vector<double>& distances = inside.size() >= kEnough ? inside : anywhere;
   if (distances.empty()) return std::nullopt;

@@ -54,14 +54,14 @@ TrackVerdict judge(const Track& track, const std::vector<LineFrame>& frames, con
   TrackVerdict verdict;
   const std::size_t count = track.lines.size();
   const auto stamp = [&](std::size_t i) { return frames[track.first_frame + i].stamp_ns; };
-  const LiftedSegment first(truth, stamp(0), track.lines[0]->segment);
+  const LiftedSegment first(truth, stamp(0), *track.lines[0]);
 
   verdict.drift.assign(count, 0.0);
   bool clean = true;
   for (std::size_t i = 1; i < count; ++i) {
     const TrackedLine& before = *track.lines[i - 1];
     const TrackedLine& after = *track.lines[i];
-    const auto drift = first.errorOf(stamp(i), after.segment);
+    const auto drift = first.errorOf(stamp(i), after);
     verdict.drift[i] = drift ? drift->absolute_px : TrackMeasures::kUnknown;
     clean = clean && !(verdict.drift[i] >= options.inlier_px);
     if (clean) verdict.clean_length = i + 1;
@@ -69,8 +69,7 @@ TrackVerdict judge(const Track& track, const std::vector<LineFrame>& frames, con
     PairError pair;
     pair.frame = track.first_frame + i - 1;
     pair.id = before.id;
-    const auto error =
-        i == 1 ? drift : LiftedSegment(truth, stamp(i - 1), before.segment).errorOf(stamp(i), after.segment);
+    const auto error = i == 1 ? drift : LiftedSegment(truth, stamp(i - 1), before).errorOf(stamp(i), after);
     if (error) {
       pair.error = error->absolute_px;
       pair.normalized = error->signed_px / std::hypot(before.sigma_px, after.sigma_px);
@@ -281,15 +280,18 @@ TrackMeasures measureTracks(const std::vector<LineFrame>& frames, bool has_stati
 
   std::vector<double> coverages;
   std::size_t lines = 0;
+  double lengths = 0.0;
   std::size_t detections = 0;
   for (const LineFrame& frame : frames) {
     lines += frame.lines.size();
+    for (const TrackedLine& line : frame.lines) lengths += static_cast<double>(line.segment.length());
     detections += frame.detected ? 1 : 0;
     measures.lines.push_back(frame.lines.size());
     measures.seconds.push_back(1e-9 * static_cast<double>(frame.stamp_ns - frames.front().stamp_ns));
     coverages.push_back(gridCoverage(frame));
   }
   measures.lines_per_image = shareOf(lines, frames.size());
+  if (lines > 0) measures.line_length = lengths / static_cast<double>(lines);
   measures.track_length = shareOf(lines, tracks.size());
   measures.coverage = mean(coverages);
   measures.detections = shareOf(detections, frames.size());

@@ -44,6 +44,7 @@ struct TrackMeasures {
   std::size_t tracks{0};
   double lines_per_image{kUnknown};
   double coverage{kUnknown};      ///< share of the 8x6 grid crossed by a line, mean over images
+  double line_length{kUnknown};   ///< of the lines in the raw image, mean [px]
   double track_length{kUnknown};  ///< images per track, mean
 
   /// Without truth.

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "tet_line_tracker/camera/camera_model.h"
+
 namespace tet_line_tracker {
 
 /// A point on something in the world.
@@ -15,15 +17,18 @@ struct WorldPoint {
 
 /// Where a world point is in an image.
 struct PointView {
-  Eigen::Vector2d pixel;   ///< [px], may lie outside the picture
-  bool in_picture{false};  ///< the pixel lies inside the picture
-  bool hidden{false};      ///< something nearer stands before it; only known inside the picture
+  Eigen::Vector2d pixel;      ///< [px], may lie outside the picture
+  Eigen::Vector3d in_camera;  ///< the point in the optical frame [m]
+  bool in_picture{false};     ///< the pixel lies inside the picture
+  bool hidden{false};         ///< something nearer stands before it; only known inside the picture
 };
 
 /// What is known of the world in which lines were tracked. Const use may be shared between threads.
 class Truth {
  public:
   virtual ~Truth() = default;
+
+  virtual const CameraModel& camera() const = 0;
 
   /// The world point that a point of a line shows. Along an occlusion edge the two sides of a line belong to
   /// different surfaces; the edge is on the nearer one. `normal`: unit normal of the line at the pixel.

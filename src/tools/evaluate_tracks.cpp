@@ -15,6 +15,7 @@
 #include <sys/wait.h>
 
 #include "../evaluation/evaluation_report.h"
+#include "../evaluation/scene_truth.h"
 #include "../evaluation/track_measures.h"
 #include "bag_reader.h"
 #include "line_bag.h"
@@ -26,16 +27,19 @@
 namespace tet_line_tracker {
 namespace {
 
-EvaluatedBag evaluate(const std::string& path, const std::string& lines_topic,
-                      const MeasureOptions& options) {
+EvaluatedBag evaluate(const std::string& path, const std::string& lines_topic, const MeasureOptions& options,
+                      bool absolute) {
   rosbag::Bag bag;
   openForReading(bag, path);
   const LineBag lines = readLines(bag, lines_topic);
   const BagTruth truth = readTruth(bag);
   const std::string file = path.substr(path.rfind('/') + 1);
   const bool has_ending = file.size() > 4 && file.compare(file.size() - 4, 4, ".bag") == 0;
-  return {has_ending ? file.substr(0, file.size() - 4) : file, truth.kind,
-          measureTracks(lines.frames, lines.has_statistics, truth.truth.get(), options)};
+  EvaluatedBag evaluated{has_ending ? file.substr(0, file.size() - 4) : file, truth.kind,
+                         measureTracks(lines.frames, lines.has_statistics, truth.truth.get(), options)};
+  const auto* scene = dynamic_cast<const SceneTruth*>(truth.truth.get());
+  if (absolute && scene != nullptr) evaluated.absolute = measureAbsolute(lines.frames, *scene);
+  return evaluated;
 }
 
 /// Before any work: no output is an input, or would take the place of what is no file.
@@ -80,6 +84,7 @@ Columns (- where a value is not known):
   truth      what the lines are judged by: scene, depth or none
   images     images with lines, empty ones included
   lines      lines per image, mean
+  px         length of the lines in the image, mean [px]
   cover%     share of an 8x6 grid over the image that a line crosses, mean
   <2px%      share of the lines whose error from one image to the next is under 2 px
   <1px%      the same under 1 px
@@ -94,6 +99,27 @@ Columns (- where a value is not known):
   ms         time per image, mean, by the statistics in the bag (track_bag --times)
   ms p99     the same, 99th percentile
   homog%     share of the lines in two images in a row that agree on one homography
+
+Columns of the second table (--absolute; needs the scene of simulate_bag): how far lines lie from the
+true edge that they show. An edge is judged when it is visible beside most of the line, both
+ends are within 5 px of it, and no other visible edge runs within 4 px of it, which the line
+might show as well. Distances are those of the undistorted points on z = 1, times the focal
+length; for equidistant and mei lenses those in the image.
+  length     class of length in the image [px]; all has shorter lines too
+  lines      lines in all images
+  judged%    share of these with an edge to be judged by
+  ambig%     share left out because two edges are near; the rest shows no known edge
+  worse      distance of the worse end from the edge, median [px]
+  worse90    the same, 90 % are below
+  middle     distance of the middle from the edge, median [px]
+  mid90      the same, 90 % are below
+  norm       errors of both ends over what covariance_px claims (else sigma_px): median over that
+             of a normal distribution, so 1 is honest
+  rms        the same by the root of the mean of squares, which few wrong lines dominate
+  normworse  median of the larger of the two; 1.05 is honest when the ends are independent, 0.67
+             when they move together
+  normmid    errors of the middle over sigma_px, as norm
+  tracks/edge  lines of one image that show the same edge, mean over edges that a line shows
 )";
 
 int run(int argc, char** argv) {
@@ -102,11 +128,13 @@ int run(int argc, char** argv) {
   std::string lines_topic, csv_file, json_file, plot_folder;
   MeasureOptions measure;
   bool with_pairs = false;
+  bool absolute = false;
   po::options_description options;
   // clang-format off
   options.add_options()
       ("bag", po::value(&paths)->required(), "bags with lines and truth, as written by track_bag")
       ("lines", po::value(&lines_topic)->default_value(sequence_bag::kLinesTopic), "topic of the lines")
+      ("absolute", po::bool_switch(&absolute), "a second table: distance from the true edges of a simulated scene")
       ("csv", po::value(&csv_file), "write all measures to this file")
       ("json", po::value(&json_file), "write all measures, curves and the error histogram to this file")
       ("pairs", po::bool_switch(&with_pairs), "put the verdict on every line pair into the JSON file")
@@ -133,11 +161,15 @@ int run(int argc, char** argv) {
     ProgressBar progress(paths.size());
     for (const std::string& path : paths) {
       throwIfInterrupted();
-      bags.push_back(evaluate(path, lines_topic, measure));
+      bags.push_back(evaluate(path, lines_topic, measure, absolute));
       progress.advance();
     }
   }
   writeText(std::cout, bags);
+  if (absolute) {
+    std::cout << "\n";
+    writeAbsoluteText(std::cout, bags);
+  }
   if (!csv_file.empty()) {
     std::ostringstream text;
     writeCsv(text, bags);

@@ -48,8 +48,8 @@ class EvaluateTracks : public testing::Test {
 TemporaryFolder* EvaluateTracks::folder_ = nullptr;
 
 TEST_F(EvaluateTracks, WritesTheSameMeasuresAsTextCsvAndJson) {
-  const ToolRun run = runTool("evaluate_tracks", {in("first.bag"), in("second.bag"), "--csv", in("all.csv"),
-                                                  "--json", in("all.json")});
+  const ToolRun run = runTool("evaluate_tracks", {in("first.bag"), in("second.bag"), "--absolute", "--csv",
+                                                  in("all.csv"), "--json", in("all.json")});
   ASSERT_EQ(run.status, 0) << run.errors;
   EXPECT_NE(run.output.find("first"), std::string::npos);
   EXPECT_NE(run.output.find("second"), std::string::npos);
@@ -69,6 +69,14 @@ TEST_F(EvaluateTracks, WritesTheSameMeasuresAsTextCsvAndJson) {
     ++compared;
   }
   EXPECT_GE(compared, 15U);
+  ASSERT_TRUE(json[0]["absolute_all_judged"]);
+  EXPECT_GT(json[0]["absolute_all_judged"].as<int>(), 50);
+  EXPECT_GE(json[0]["tracks_per_edge"].as<double>(), 1.0);
+  double lines = 0.0;
+  for (const char* length : {"30_60", "60_100", "100_160", "160_250", "250_up"}) {
+    lines += json[0]["absolute_" + std::string(length) + "_lines"].as<double>();
+  }
+  EXPECT_EQ(lines, json[0]["absolute_all_lines"].as<double>());
 
   EXPECT_EQ(json[0]["truth"].as<std::string>(), "scene");
   EXPECT_EQ(json[0]["images"].as<int>(), 11);
@@ -82,18 +90,24 @@ TEST_F(EvaluateTracks, WritesTheSameMeasuresAsTextCsvAndJson) {
 }
 
 TEST_F(EvaluateTracks, ExplainsEveryColumnOfItsTable) {
-  const ToolRun run = runTool("evaluate_tracks", {in("first.bag")});
+  const ToolRun run = runTool("evaluate_tracks", {in("first.bag"), "--absolute"});
   ASSERT_EQ(run.status, 0) << run.errors;
   const std::string help = runTool("evaluate_tracks", {"--help"}).output;
   std::istringstream columns(help.substr(std::min(help.size(), help.find("\nColumns"))));
   std::set<std::string> words;
   for (std::string word; columns >> word;) words.insert(word);
-  std::istringstream header(run.output.substr(0, run.output.find('\n')));
-  std::string name;
-  header >> name;  // bag
+  const std::size_t second = run.output.find("\n\n");
+  ASSERT_NE(second, std::string::npos);
   std::size_t names = 0;
-  for (; header >> name; ++names) EXPECT_EQ(words.count(name), 1U) << name << " is not explained:\n" << help;
-  EXPECT_GE(names, 15U);
+  for (const std::string& table : {run.output, run.output.substr(second + 2)}) {
+    std::istringstream header(table.substr(0, table.find('\n')));
+    std::string name;
+    header >> name;  // bag
+    for (; header >> name; ++names) {
+      EXPECT_EQ(words.count(name), 1U) << name << " is not explained:\n" << help;
+    }
+  }
+  EXPECT_GE(names, 30U);
 }
 
 TEST_F(EvaluateTracks, EndsWithASentenceAndNoFileOnABagWithoutLines) {
