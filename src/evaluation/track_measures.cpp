@@ -7,6 +7,7 @@
 
 #include <opencv2/core/utility.hpp>
 
+#include "geometry/coverage_grid.h"
 #include "homography_consensus.h"
 #include "track_judge.h"
 
@@ -248,26 +249,9 @@ void measureTimes(const std::vector<LineFrame>& frames, TrackMeasures& measures)
 }  // namespace
 
 double gridCoverage(const LineFrame& frame) {
-  constexpr int kColumns = 8;
-  constexpr int kRows = 6;
-  std::array<bool, kColumns * kRows> crossed{};
-  const float width = static_cast<float>(frame.width);
-  const float height = static_cast<float>(frame.height);
-  for (const TrackedLine& line : frame.lines) {
-    for (int cell = 0; cell < kColumns * kRows; ++cell) {
-      auto& is_crossed = crossed[static_cast<std::size_t>(cell)];
-      if (is_crossed) continue;
-      const auto column = static_cast<float>(cell % kColumns);
-      const int full_rows = cell / kColumns;
-      const auto row = static_cast<float>(full_rows);
-      // Pixel centres are integers: the picture begins half a pixel before the first.
-      const ImageBounds bounds{column * width / kColumns - 0.5F, row * height / kRows - 0.5F,
-                               (column + 1.0F) * width / kColumns - 0.5F,
-                               (row + 1.0F) * height / kRows - 0.5F};
-      is_crossed = clip(line.segment, bounds).has_value();
-    }
-  }
-  return static_cast<double>(std::count(crossed.begin(), crossed.end(), true)) / (kColumns * kRows);
+  CoverageGrid grid(frame.width, frame.height);
+  for (const TrackedLine& line : frame.lines) grid.add(line.segment);
+  return static_cast<double>(grid.coverage());
 }
 
 TrackMeasures measureTracks(const std::vector<LineFrame>& frames, bool has_statistics, const Truth* truth,

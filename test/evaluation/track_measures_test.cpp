@@ -286,10 +286,10 @@ TEST(TrackMeasures, FindTheGridCellsThatALineCrosses) {
   TrackedLine line;
   line.segment = {{5.0F, 20.0F}, {315.0F, 20.0F}};  // the whole upper row
   frame.lines.push_back(line);
-  EXPECT_DOUBLE_EQ(gridCoverage(frame), 8.0 / 48.0);
+  EXPECT_NEAR(gridCoverage(frame), 8.0 / 48.0, 1e-7);
   line.segment = {{60.0F, 50.0F}, {60.0F, 110.0F}};  // two cells further down
   frame.lines.push_back(line);
-  EXPECT_DOUBLE_EQ(gridCoverage(frame), 10.0 / 48.0);
+  EXPECT_NEAR(gridCoverage(frame), 10.0 / 48.0, 1e-7);
 }
 
 class DepthTruthTest : public testing::TestWithParam<std::pair<double, std::int64_t>> {};
