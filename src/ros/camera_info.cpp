@@ -53,7 +53,7 @@ CameraChoice chooseCamera(const sensor_msgs::CameraInfo& info) {
 }
 
 CameraChoice chooseCamera(const sensor_msgs::CameraInfo& info, std::uint32_t width, std::uint32_t height) {
-  const CameraChoice choice = chooseCamera(info);
+  CameraChoice choice = chooseCamera(info);
   const std::string problem = sizeProblem(info, width, height);
   if (choice.camera == nullptr || problem.empty()) return choice;
   return {nullptr, problem};

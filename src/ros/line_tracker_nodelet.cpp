@@ -124,7 +124,7 @@ void LineTrackerNodelet::reportDiagnostics(diagnostic_updater::DiagnosticStatusW
 }
 
 std::string LineTrackerNodelet::imuState() const {
-  const std::string topic = imu_subscriber_.getTopic();
+  std::string topic = imu_subscriber_.getTopic();
   if (!tracker_->usesImu()) return "not asked for";
   const std::optional<std::string> frame = imu_.frame();
   if (!frame) return "no message on " + topic;

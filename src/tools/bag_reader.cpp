@@ -4,6 +4,7 @@
 #include <rosbag/view.h>
 
 #include <filesystem>
+#include <sstream>
 #include <stdexcept>
 
 namespace tet_line_tracker {
@@ -31,10 +32,11 @@ void checkDefinition(const rosbag::Bag& bag, const std::string& topic, const std
   rosbag::View view(bag, rosbag::TopicQuery(topic));
   for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
     if (connection->datatype != type || connection->md5sum == md5) continue;
-    throw std::runtime_error("cannot read " + topic + " of " + bag.getFileName() + ": its " + type +
-                             " is of another definition (md5 " + connection->md5sum +
-                             ") than the one known here (" + md5 +
-                             "); `rosbag check` and `rosbag fix` migrate old recordings");
+    std::ostringstream sentence;
+    sentence << "cannot read " << topic << " of " << bag.getFileName() << ": its " << type
+             << " is of another definition (md5 " << connection->md5sum << ") than the one known here ("
+             << md5 << "); `rosbag check` and `rosbag fix` migrate old recordings";
+    throw std::runtime_error(sentence.str());
   }
 }
 

@@ -115,7 +115,7 @@ std::string chooseCameraInfoTopic(const rosbag::Bag& bag, const std::string& ask
 std::string chooseImuTopic(const rosbag::Bag& bag, const std::string& asked) {
   const Topics topics = topicsOf<sensor_msgs::Imu>(bag);
   if (!asked.empty()) requireTopic(bag, topics, asked, "sensor_msgs/Imu");
-  const std::string topic = asked.empty() && topics.size() == 1 ? *topics.begin() : asked;
+  std::string topic = asked.empty() && topics.size() == 1 ? *topics.begin() : asked;
   checkDefinition<sensor_msgs::Imu>(bag, topic);
   return topic;
 }

@@ -79,7 +79,7 @@ std::string damage(const std::string& words) {
   for (const char* const sign : {"Corrupt JPEG data: ", "Premature end of JPEG"}) {
     const std::size_t begin = words.find(sign);
     if (begin == std::string::npos) continue;
-    const std::string sentence = words.substr(begin, words.find('\n', begin) - begin);
+    std::string sentence = words.substr(begin, words.find('\n', begin) - begin);
     const bool padding = sentence.find("extraneous bytes before marker 0xd9") != std::string::npos;
     if (padding && std::strtol(sentence.c_str() + std::string(sign).size(), nullptr, 10) <= kMaxPadding)
       continue;

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -39,7 +40,9 @@ void checkOutput(const std::string& path, const std::vector<std::string>& inputs
     for (const std::string& input : inputs) {
       struct stat status {};
       if (input.empty() || stat(input.c_str(), &status) != 0 || !isSameFile(status, output)) continue;
-      throw std::runtime_error("cannot write " + path + ": it is the same file as the input " + input);
+      std::ostringstream sentence;
+      sentence << "cannot write " << path << ": it is the same file as the input " << input;
+      throw std::runtime_error(sentence.str());
     }
   }
   const std::string kind = foreignKind(path);

@@ -48,9 +48,8 @@ struct LineCurve {
 
   /// Point of the curve at `fraction` of the way along the chord [px].
   Eigen::Vector2f at(float fraction) const {
-    const Eigen::Vector2f on_chord = chord.at(fraction);
-    if (bend.isStraight()) return on_chord;
-    return on_chord + bend.offset(fraction) * chord.normal();
+    if (bend.isStraight()) return chord.at(fraction);
+    return chord.at(fraction) + bend.offset(fraction) * chord.normal();
   }
   /// Signed distance of `point` from the curve along the chord's normal, positive to the left on screen [px].
   float distance(const Eigen::Vector2f& point) const {

@@ -1,5 +1,6 @@
 #include "tracking/visible_area.h"
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -62,8 +63,10 @@ std::uint8_t VisibleArea::cutsOf(const LineCurve& line) const {
 bool VisibleArea::sees(const Eigen::Vector2f& pixel) const {
   // Written so that NaN is not seen.
   if (!bounds().contains(pixel) || !field_of_view_->contains(pixel)) return false;
-  return mask_in_use_.empty() || mask_in_use_.at<std::uint8_t>(static_cast<int>(pixel.y() + 0.5F),
-                                                               static_cast<int>(pixel.x() + 0.5F)) != 0;
+  if (mask_in_use_.empty()) return true;
+  const auto x = static_cast<int>(std::lround(pixel.x()));
+  const auto y = static_cast<int>(std::lround(pixel.y()));
+  return mask_in_use_.at<std::uint8_t>(y, x) != 0;
 }
 
 }  // namespace tet_line_tracker
