@@ -33,6 +33,7 @@ Values valuesOf(const TrackMeasures& m, const ThreeViewMeasures& three_view) {
     values.emplace_back("drift_" + age + "_median_px", m.drift[n]);
     values.emplace_back("drift_" + age + "_p95_px", m.drift_p95[n]);
   }
+  const TripleAgreement agreement = compareJudges(three_view, m.pairs);
   const Values rest{{"clean_length", m.clean_length},
                     {"survival", m.survival},
                     {"sigma_spread", m.sigma_spread},
@@ -48,7 +49,9 @@ Values valuesOf(const TrackMeasures& m, const ThreeViewMeasures& three_view) {
                     {"three_view_ratio_2px", three_view.inlier_ratio},
                     {"three_view_ratio_1px", three_view.tight_inlier_ratio},
                     {"three_view_left_out_ratio", three_view.left_out_ratio},
-                    {"three_view_refuted_ratio", three_view.refuted_ratio}};
+                    {"three_view_refuted_ratio", three_view.refuted_ratio},
+                    {"both_judges_three_view_ratio_2px", agreement.three_view_ratio},
+                    {"both_judges_exact_ratio_2px", agreement.exact_ratio}};
   values.insert(values.end(), rest.begin(), rest.end());
   return values;
 }

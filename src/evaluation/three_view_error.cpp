@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "line_tracks.h"
 #include "undistorted_line.h"
@@ -120,20 +122,41 @@ ThreeViewMeasures measureThreeViews(const std::vector<LineFrame>& frames, const 
       if (!error || error->isIllPosed()) {
         ++measures.left_out;
       } else {
-        measures.errors.push_back(error->error_px);
+        measures.judged.push_back({k - 2, track.lines[i]->id, error->error_px});
       }
     }
   }
   const auto below = [&](double limit) {
-    return static_cast<std::size_t>(std::count_if(measures.errors.begin(), measures.errors.end(),
-                                                  [&](double error) { return error < limit; }));
+    return static_cast<std::size_t>(
+        std::count_if(measures.judged.begin(), measures.judged.end(),
+                      [&](const ThreeViewMeasures::Triple& triple) { return triple.error < limit; }));
   };
-  measures.refuted = measures.errors.size() - below(inlier_px);
-  measures.inlier_ratio = shareOf(below(inlier_px), measures.errors.size());
-  measures.tight_inlier_ratio = shareOf(below(tight_inlier_px), measures.errors.size());
+  measures.refuted = measures.judged.size() - below(inlier_px);
+  measures.inlier_ratio = shareOf(below(inlier_px), measures.judged.size());
+  measures.tight_inlier_ratio = shareOf(below(tight_inlier_px), measures.judged.size());
   measures.left_out_ratio = shareOf(measures.left_out, measures.triples);
   measures.refuted_ratio = shareOf(measures.refuted, measures.triples);
   return measures;
+}
+
+TripleAgreement compareJudges(const ThreeViewMeasures& three_view, const std::vector<PairError>& pairs,
+                              double inlier_px) {
+  std::map<std::pair<std::size_t, std::uint64_t>, double> error_of;
+  for (const PairError& pair : pairs) {
+    if (!std::isnan(pair.error)) error_of[{pair.frame, pair.id}] = pair.error;
+  }
+  std::size_t count = 0;
+  std::size_t right_by_views = 0;
+  std::size_t right_by_truth = 0;
+  for (const ThreeViewMeasures::Triple& triple : three_view.judged) {
+    const auto first = error_of.find({triple.frame, triple.id});
+    const auto second = error_of.find({triple.frame + 1, triple.id});
+    if (first == error_of.end() || second == error_of.end()) continue;
+    ++count;
+    right_by_views += triple.error < inlier_px ? 1 : 0;
+    right_by_truth += std::max(first->second, second->second) < inlier_px ? 1 : 0;
+  }
+  return {shareOf(right_by_views, count), shareOf(right_by_truth, count)};
 }
 
 }  // namespace tet_line_tracker

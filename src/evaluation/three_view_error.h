@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "pose_track.h"
 #include "tet_line_tracker/camera/camera_model.h"
 #include "tet_line_tracker/tracking/line_frame.h"
+#include "track_measures.h"
 
 namespace tet_line_tracker {
 
@@ -44,12 +46,26 @@ struct ThreeViewMeasures {
   std::size_t refuted{0};   ///< of these, ones with an error of the limit or more
   double inlier_ratio{kUnknown}, tight_inlier_ratio{kUnknown};  ///< of the triples not left out
   double left_out_ratio{kUnknown}, refuted_ratio{kUnknown};     ///< of all triples
-  std::vector<double> errors;                                   ///< of the triples not left out [px]
+  struct Triple {
+    std::size_t frame;  ///< index of the first image
+    std::uint64_t id;
+    double error;  ///< [px]
+  };
+  std::vector<Triple> judged;  ///< the triples not left out
 };
 
 /// `inlier_px`, `tight_inlier_px`: errors below which a triple is right [px].
 ThreeViewMeasures measureThreeViews(const std::vector<LineFrame>& frames, const PoseTrack& world_from_camera,
                                     const CameraModel& camera, double inlier_px = 2.0,
                                     double tight_inlier_px = 1.0);
+
+/// Two judges of the same triples: shares of those that are right by three views, and of those both line
+/// pairs of which are within `inlier_px` of the exact truth. NaN where no triple is judged by both.
+struct TripleAgreement {
+  double three_view_ratio{ThreeViewMeasures::kUnknown};
+  double exact_ratio{ThreeViewMeasures::kUnknown};
+};
+TripleAgreement compareJudges(const ThreeViewMeasures& three_view, const std::vector<PairError>& pairs,
+                              double inlier_px = 2.0);
 
 }  // namespace tet_line_tracker

@@ -1,5 +1,7 @@
 #include "evaluation/three_view_error.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -176,6 +178,43 @@ TEST(ThreeViewMeasures, LeaveOutOfTheCountWhatHasNoPose) {
   for (int k = 1; k < 5; ++k) poses.add(stampOf(k), poseAt({0.1 * k, 0.02 * k, 0.0}));
   poses.sort();
   EXPECT_EQ(measureThreeViews(trackWithJump(*camera, poses, 0.0), poses, *camera).triples, 2U);
+}
+
+TEST(ThreeViewMeasures, GiveTheShareOfTheExactJudgeWithinHalfAPointOnASimulatedFlight) {
+  SimulationOptions options;
+  options.motion = "fast";
+  options.seconds = 2.0;
+  options.seed = 3;
+  options.threads = 2;
+  const auto camera = makeCameraModel(defaultSimulatedCamera());
+  Simulation simulation(options, camera);
+  LineTrackerParameters without_prior;
+  without_prior.motion.prior = "none";
+  without_prior.plausibility.max_edge_offset = 10.0;
+  LineTracker tracker(without_prior);
+  LkEndpoints endpoints{LineTrackerParameters()};
+  const std::array<LineFrontEnd*, 2> front_ends{&tracker, &endpoints};
+  for (LineFrontEnd* front_end : front_ends) front_end->setCamera(camera);
+  PoseTrack poses;
+  std::array<std::vector<LineFrame>, 2> frames;
+  for (int i = 0; i < simulation.imageCount(); ++i) {
+    const std::int64_t stamp = simulation.imageStamp(i);
+    poses.add(stamp, simulation.trajectory().worldFromCamera(simulation.timeOf(stamp)));
+    const cv::Mat image = simulation.nextImage();
+    for (std::size_t k = 0; k < 2; ++k) frames[k].push_back(*front_ends[k]->process(image, stamp).frame);
+  }
+  poses.sort();
+  const SceneTruth truth(simulation.geometry(), poses, camera);
+  double lowest = 1.0;
+  for (const std::vector<LineFrame>& seen : frames) {
+    const ThreeViewMeasures measures = measureThreeViews(seen, poses, *camera);
+    const TripleAgreement agreement = compareJudges(measures, measureTracks(seen, false, &truth).pairs);
+    EXPECT_GT(measures.judged.size(), 500U);
+    EXPECT_LT(measures.left_out_ratio, 0.05);
+    EXPECT_NEAR(agreement.three_view_ratio, agreement.exact_ratio, 0.005);
+    lowest = std::min(lowest, agreement.exact_ratio);
+  }
+  EXPECT_LT(lowest, 0.98) << "where all is right both judges agree for nothing";
 }
 
 }  // namespace
