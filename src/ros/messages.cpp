@@ -99,6 +99,7 @@ TrackingStatistics toTrackingStatistics(const LineFrame& frame, const std::strin
   message.lost_duplicate = from.lostFor(LossReason::kDuplicate);
   message.prior = from.prior;
   message.prior_rotation = from.prior_rotation;
+  message.imu_time_offset = static_cast<float>(from.imu_time_offset);
   message.dropped_late = from.dropped_late;
   message.dropped_duplicate = from.dropped_duplicate;
   message.dropped_zero = from.dropped_zero;

@@ -46,6 +46,7 @@ void StreamDiagnostics::addTracked(const LineFrame& frame, double milliseconds) 
   lines_cut_ += frame.statistics.lines_cut;
   lines_left_out_ += frame.statistics.lines_left_out;
   for (std::size_t i = 0; i < lines_lost_.size(); ++i) lines_lost_[i] += frame.statistics.lost[i];
+  imu_time_offset_s_ = frame.statistics.imu_time_offset;
   epoch_ = frame.epoch;
   width_ = frame.width;
   height_ = frame.height;
@@ -89,6 +90,7 @@ void StreamDiagnostics::report(const Setup& setup, diagnostic_updater::Diagnosti
   status.add("image size", std::to_string(width_) + "x" + std::to_string(height_));
   status.add("calibration", setup.calibration);
   status.add("imu", setup.imu);
+  status.addf("imu time offset [s]", "%.4f", imu_time_offset_s_);
   status.add("detector", setup.detector);
   status.add("epoch", epoch_);
   status.addf("images in [Hz]", "%.2f", static_cast<double>(interval.received) / duration);

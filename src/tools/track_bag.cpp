@@ -210,7 +210,7 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
     const std::string trouble = calibration.takeComplaint();
     if (!trouble.empty()) warn(progress, trouble);
     const auto stamp_ns = static_cast<std::int64_t>(stamp.toNSec());
-    if (imu) imu->feed(stamp_ns, tracker);
+    if (imu) imu->feed(tracker.imuStamp(stamp_ns), tracker);
     FrameResult result;
     try {
       result = front_end.process(gray, stamp_ns);

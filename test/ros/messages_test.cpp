@@ -62,6 +62,7 @@ TEST(Messages, GiveEachReasonOfALossItsField) {
   frame.statistics.lines_cut = 11;
   frame.statistics.lines_left_out = 12;
   frame.statistics.total_ms = 2.5;
+  frame.statistics.imu_time_offset = -0.25;
   const TrackingStatistics message = toTrackingStatistics(frame, "cam0", 0, 4);
   const std::vector<std::uint32_t> lost{
       message.lost_flow,    message.lost_residual,  message.lost_length_ratio, message.lost_angle,
@@ -74,6 +75,7 @@ TEST(Messages, GiveEachReasonOfALossItsField) {
   EXPECT_EQ(message.lines_left_out, 12U);
   EXPECT_EQ(message.dropped_queue, 4U);
   EXPECT_EQ(message.total_ms, 2.5F);
+  EXPECT_EQ(message.imu_time_offset, -0.25F);
   EXPECT_EQ(message.epoch, 3U);
 }
 

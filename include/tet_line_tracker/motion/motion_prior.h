@@ -48,6 +48,10 @@ class MotionPrior {
   /// Bias of the gyroscope as learned from the images so far, in the camera's optical frame [rad/s].
   Eigen::Vector3d gyroBias() const;
 
+  /// By how much the IMU's stamps are ahead of the images' [s]: what happens at stamp t of an image has the
+  /// IMU stamp t + imuTimeOffset(). As the parameter says, or as estimated so far.
+  double imuTimeOffset() const;
+
   /// Forgets the image before; the next predict() gives no motion.
   void reset();
 

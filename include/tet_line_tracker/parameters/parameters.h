@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -31,6 +32,9 @@ struct MotionPriorParameters {
   /// none, image, imu (image where its samples are missing), auto (image also where the images contradict the
   /// imu)
   std::string prior{"auto"};
+  /// t_imu - t_image [s], -0.5..0.5: what happens at stamp t of an image has the IMU stamp t + offset (as
+  /// Kalibr's timeshift_cam_imu and VINS's td); or auto: estimated
+  std::string imu_time_offset{"0"};
   bool predict_parallax{true};  ///< the movement that rotation does not explain goes on as in the last image
 };
 
@@ -78,6 +82,9 @@ struct LineTrackerParameters {
   DetectionParameters detection;
   StreamParameters stream;
 };
+
+/// The offset that imu_time_offset gives [s]; nothing for auto, and for what check() refuses.
+std::optional<double> givenImuTimeOffset(const MotionPriorParameters& parameters);
 
 /// Entries bound to the fields of `parameters`, which must outlive the table.
 ParameterTable tableOf(LineTrackerParameters& parameters);

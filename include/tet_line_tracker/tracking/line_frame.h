@@ -65,8 +65,9 @@ struct FrameStatistics {
   std::uint32_t lines_left_out{0};  ///< the same, but less than min_length was left: lost, or not added
   std::array<std::uint32_t, static_cast<std::size_t>(LossReason::kCount)> lost{};  ///< by LossReason
 
-  std::string prior{"none"};   ///< motion prior that was used
-  float prior_rotation{0.0F};  ///< angle of the predicted rotation [rad]
+  std::string prior{"none"};    ///< motion prior that was used
+  float prior_rotation{0.0F};   ///< angle of the predicted rotation [rad]
+  double imu_time_offset{0.0};  ///< t_imu - t_image in use, given or estimated [s]
 
   std::uint32_t dropped_late{0}, dropped_duplicate{0}, dropped_zero{0};  ///< images of this epoch
 

@@ -8,6 +8,7 @@
 #include "geometry/so3.h"
 #include "motion/gyro_bias.h"
 #include "motion/gyro_integrator.h"
+#include "motion/imu_time_offset.h"
 #include "motion/rotation_aligner.h"
 
 namespace tet_line_tracker {
@@ -48,7 +49,13 @@ const char* MotionPrediction::sourceName() const {
 
 class MotionPrior::Implementation {
  public:
-  explicit Implementation(const MotionPriorParameters& parameters) : parameters_(parameters) {}
+  explicit Implementation(const MotionPriorParameters& parameters) : parameters_(parameters) {
+    if (const auto given = givenImuTimeOffset(parameters)) {
+      given_offset_s_ = *given;
+    } else {
+      estimated_offset_.emplace();
+    }
+  }
 
   void setCamera(std::shared_ptr<const CameraModel> camera) {
     if (camera == camera_) return;
@@ -56,13 +63,18 @@ class MotionPrior::Implementation {
     image_size_ = cv::Size();
   }
   void setImuRotation(const Eigen::Matrix3d& camera_from_imu) {
-    if (camera_from_imu_ && *camera_from_imu_ != camera_from_imu) gyro_bias_.reset();
+    if (camera_from_imu_ && *camera_from_imu_ != camera_from_imu) {
+      gyro_bias_.reset();
+      if (estimated_offset_) estimated_offset_->reset();
+    }
     camera_from_imu_ = camera_from_imu;
   }
   Eigen::Vector3d gyroBias() const { return -gyro_bias_.value().cast<double>(); }
   void addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3d& velocity) {
     gyro_.add(stamp_ns, velocity);
+    if (estimated_offset_) estimated_offset_->addAngularVelocity(stamp_ns, velocity);
   }
+  double imuTimeOffset() const { return estimated_offset_ ? estimated_offset_->value() : given_offset_s_; }
   void reset() {
     coarse_.clearTemplate();
     fine_.clearTemplate();
@@ -73,6 +85,9 @@ class MotionPrior::Implementation {
                     const Eigen::Vector2d& start_normalized, const Eigen::Vector2d& end_normalized) const;
 
  private:
+  std::int64_t imuStamp(std::int64_t image_stamp_ns) const {
+    return image_stamp_ns + std::llround(1e9 * imuTimeOffset());
+  }
   void prepareCamera(const ImagePyramid& pyramid);
   std::optional<Eigen::Vector3f> integrateGyro(std::int64_t stamp_ns) const;
   Eigen::Vector3f alignImages(const ImagePyramid& pyramid);
@@ -88,6 +103,8 @@ class MotionPrior::Implementation {
   cv::Size image_size_;                      ///< that the aligners know
   std::optional<Eigen::Matrix3d> camera_from_imu_;
   GyroIntegrator gyro_;
+  double given_offset_s_{0.0};
+  std::optional<ImuTimeOffset> estimated_offset_;  ///< when the parameter is auto
   RotationAligner coarse_{kCoarseLevel};
   RotationAligner fine_{kFineLevel};
   GyroBias gyro_bias_;  ///< of directions in the camera's optical frame, which rotate against the camera
@@ -114,7 +131,7 @@ void MotionPrior::Implementation::prepareCamera(const ImagePyramid& pyramid) {
 std::optional<Eigen::Vector3f> MotionPrior::Implementation::integrateGyro(std::int64_t stamp_ns) const {
   if (!camera_from_imu_ || (parameters_.prior != "imu" && parameters_.prior != "auto")) return std::nullopt;
   const std::optional<Eigen::Matrix3d> rotation =
-      gyro_.rotation(last_stamp_ns_, stamp_ns, Eigen::Vector3d::Zero());
+      gyro_.rotation(imuStamp(last_stamp_ns_), imuStamp(stamp_ns), Eigen::Vector3d::Zero());
   if (!rotation) return std::nullopt;
   return so3Log(*camera_from_imu_ * *rotation * camera_from_imu_->transpose()).cast<float>();
 }
@@ -171,10 +188,14 @@ MotionPrediction MotionPrior::Implementation::predict(const ImagePyramid& pyrami
     }
     prediction.rotation = so3Exp(rotation.cast<double>()).toRotationMatrix();
     last_rotation_ = rotation;
+    if (estimated_offset_ && camera_from_imu_) {
+      estimated_offset_->addImageRotation(last_stamp_ns_, stamp_ns, seen.cast<double>(), *camera_from_imu_);
+    }
   }
   coarse_.extractTemplate(pyramid);
   fine_.extractTemplate(pyramid);
-  gyro_.forgetBefore(stamp_ns);
+  // An estimate may still move back.
+  gyro_.forgetBefore(imuStamp(stamp_ns) - (estimated_offset_ ? GyroIntegrator::kMaxGapNs : 0));
   last_stamp_ns_ = stamp_ns;
   return prediction;
 }
@@ -214,6 +235,9 @@ void MotionPrior::addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3
 }
 Eigen::Vector3d MotionPrior::gyroBias() const {
   return implementation_->gyroBias();
+}
+double MotionPrior::imuTimeOffset() const {
+  return implementation_->imuTimeOffset();
 }
 void MotionPrior::reset() {
   implementation_->reset();

@@ -1,7 +1,12 @@
 #include "tet_line_tracker/parameters/parameters.h"
 
+#include <cmath>
+#include <cstdlib>
+
 namespace tet_line_tracker {
 namespace {
+
+constexpr double kMaxImuTimeOffset = 0.5;  // [s]
 
 ParameterTable tableOf(EndpointTrackerParameters& p) {
   ParameterTable table;
@@ -27,6 +32,9 @@ ParameterTable tableOf(MotionPriorParameters& p) {
   table.add("prior", p.prior, {"auto", "none", "imu", "image"},
             "Rotation by which endpoints are predicted; `imu`: from the image where IMU samples are missing; "
             "`auto`: also where the images contradict the IMU");
+  table.add("imu_time_offset", p.imu_time_offset, std::vector<std::string>{},
+            "Stamp of the IMU less that of the camera at the same moment [s], -0.5..0.5: Kalibr's "
+            "`timeshift_cam_imu`, VINS's `td`; `auto`: estimated from turns, up to 0.1 s");
   table.add("predict_parallax", p.predict_parallax,
             "Predict that the movement which the rotation does not explain goes on as in the last image");
   return table;
@@ -95,6 +103,15 @@ ParameterTable tableOf(LineTrackerParameters& p) {
   return table;
 }
 
+std::optional<double> givenImuTimeOffset(const MotionPriorParameters& parameters) {
+  const std::string& text = parameters.imu_time_offset;
+  char* end = nullptr;
+  const double seconds = std::strtod(text.c_str(), &end);
+  // Written so that NaN fails.
+  if (text.empty() || *end != '\0' || !(std::abs(seconds) <= kMaxImuTimeOffset)) return std::nullopt;
+  return seconds;
+}
+
 std::vector<std::string> check(const EndpointTrackerParameters& parameters) {
   EndpointTrackerParameters copy = parameters;
   return tableOf(copy).check();
@@ -103,6 +120,12 @@ std::vector<std::string> check(const EndpointTrackerParameters& parameters) {
 std::vector<std::string> check(const LineTrackerParameters& parameters) {
   LineTrackerParameters copy = parameters;
   std::vector<std::string> broken = tableOf(copy).check();
+  if (parameters.motion.imu_time_offset != "auto" && !givenImuTimeOffset(parameters.motion)) {
+    broken.push_back(
+        "parameter imu_time_offset is " +
+        (parameters.motion.imu_time_offset.empty() ? "empty" : parameters.motion.imu_time_offset) +
+        ", needs auto or a number in -0.5..0.5 [s]");
+  }
   if (parameters.detection.min_lines > parameters.detection.max_lines) {
     broken.push_back("parameter min_lines is " + std::to_string(parameters.detection.min_lines) +
                      ", needs at most max_lines, which is " + std::to_string(parameters.detection.max_lines));

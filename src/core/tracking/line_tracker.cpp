@@ -75,6 +75,7 @@ FrameResult LineTracker::Implementation::process(const cv::Mat& gray, std::int64
   const MotionPrediction motion = prior_.predict(pyramid_, stamp_ns);
   statistics.prior = motion.sourceName();
   statistics.prior_rotation = static_cast<float>(motion.angle());
+  statistics.imu_time_offset = prior_.imuTimeOffset();
   statistics.prior_ms = stage.lap();
   follow(motion);
   statistics.flow_ms = stage.lap();
@@ -224,6 +225,9 @@ void LineTracker::setImuRotation(const Eigen::Matrix3d& camera_from_imu) {
 }
 void LineTracker::addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3d& angular_velocity) {
   implementation_->prior().addAngularVelocity(stamp_ns, angular_velocity);
+}
+std::int64_t LineTracker::imuStamp(std::int64_t image_stamp_ns) const {
+  return image_stamp_ns + std::llround(1e9 * implementation_->prior().imuTimeOffset());
 }
 std::size_t LineTracker::reset() {
   return implementation_->reset();
