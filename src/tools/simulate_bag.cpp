@@ -24,6 +24,7 @@ struct Arguments {
   SimulationOptions simulation;
   bool no_imu{false};
   bool noise_free_imu{false};
+  double imu_time_offset_s{0.0};
 };
 
 ros::Time toRosTime(std::int64_t stamp_ns) {
@@ -42,7 +43,8 @@ int writeImuSamples(SequenceBag& bag, const Simulation& simulation, const Argume
     const double time_s = i / kRate - kMargin;
     const InertialSample ideal = idealInertialSample(simulation.trajectory(), defaultCameraFromImu(), time_s);
     const InertialSample sample = arguments.noise_free_imu ? ideal : errors.apply(ideal);
-    bag.writeImu(toRosTime(simulation.stampAt(time_s)), sample.angular_velocity, sample.acceleration);
+    bag.writeImu(toRosTime(simulation.stampAt(time_s + arguments.imu_time_offset_s)), sample.angular_velocity,
+                 sample.acceleration);
   }
   return count;
 }
@@ -110,6 +112,8 @@ int run(int argc, char** argv) {
   options.add_options()("no-imu", po::bool_switch(&arguments.no_imu), "write no IMU and no extrinsics");
   options.add_options()("noise-free-imu", po::bool_switch(&arguments.noise_free_imu),
                         "IMU without noise and bias");
+  options.add_options()("imu-time-offset", po::value(&arguments.imu_time_offset_s)->value_name("S"),
+                        "stamps of the IMU are later by this than those of images, -0.5 to 0.5 [s]");
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   options.add_options()("threads", po::value(&simulation.threads)->default_value(cores),
                         "for rendering; the bag does not depend on it");
@@ -117,6 +121,10 @@ int run(int argc, char** argv) {
   positional.add("out", 1);
   po::variables_map values;
   if (!parseCommandLine(argc, argv, "simulate_bag OUT.bag [options]", options, positional, values)) return 0;
+  if (!(std::abs(arguments.imu_time_offset_s) <= 0.5)) {
+    throw std::invalid_argument("imu-time-offset is " + std::to_string(arguments.imu_time_offset_s) +
+                                ", needs -0.5..0.5");
+  }
   if (values.count("rate") == 0 && simulation.motion == "drive") simulation.rate_hz = 10.0;
   return simulate(arguments);
 }
