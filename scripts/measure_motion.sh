@@ -63,4 +63,6 @@ record euroc_v1_01 euroc euroc_v1_01/mav0
 record euroc_v1_01-every_2nd euroc euroc_v1_01/mav0 --every 2
 record euroc_v1_01-every_4th euroc euroc_v1_01/mav0 --every 4
 
+# The seeds are one word each.
+# shellcheck disable=SC2086
 python3 scripts/motion_tables.py "$results" $seeds | tee "$results/tables.md"
