@@ -24,7 +24,7 @@ def text(value, style, factor=1.0):
 
 
 def mean(rows, name):
-    values = [row[name] for row in rows if row[name] is not None]
+    values = [row[name] for row in rows if row.get(name) is not None]
     return sum(values) / len(values) if values else None
 
 
