@@ -32,6 +32,15 @@ LineTrackerParameters boxParameters() {
   return parameters;
 }
 
+TEST(LineTracker, TellsUpToWhichStampOfTheImuAnImageNeedsIt) {
+  LineTrackerParameters parameters;
+  EXPECT_EQ(LineTracker(parameters).imuStamp(1000000000), 1000000000);
+  parameters.motion.imu_time_offset = "0.02";
+  EXPECT_EQ(LineTracker(parameters).imuStamp(1000000000), 1020000000);
+  parameters.motion.imu_time_offset = "-0.0015";
+  EXPECT_EQ(LineTracker(parameters).imuStamp(1000000000), 998500000);
+}
+
 TEST(LineTracker, LinesKeepTheirIdsOverFiftyImagesAndFollowTheEdges) {
   LineTracker tracker(boxParameters());
   std::map<std::uint64_t, LineSegment> first;
