@@ -34,6 +34,9 @@ class LensBend {
   LineBend between(const LineSegment& segment, const Eigen::Vector3d& start,
                    const Eigen::Vector3d& end) const;
   LineCurve curve(const LineSegment& segment) const { return {segment, between(segment)}; }
+  /// Where the line between two pixels is about `distance` px beyond `end`: on its curve, as long as the lens
+  /// sees that far.
+  Eigen::Vector2f beyond(const LineSegment& segment, float distance) const;
 
  private:
   std::shared_ptr<const CameraModel> camera_;

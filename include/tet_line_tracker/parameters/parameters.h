@@ -59,7 +59,8 @@ struct DetectionParameters {
   double redetect_ratio{0.9};    ///< joint: detect again when the number of lines or their coverage of
                                  ///< the image falls below this ratio to that after the last detection, 0..1
   int detection_interval{3};     ///< joint: images from one detection to the next at least, 1..1000
-  double min_detection_support{0.8};  ///< joint: share of a new line that must lie on an edge, 0..1
+  double min_detection_support{0.8};  ///< joint: share of a new line that must lie on an edge, 0..1; clear
+                                      ///< edges may have a quarter of the gaps
 };
 
 /// When an image continues a stream of images and when it starts another.

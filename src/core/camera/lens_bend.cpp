@@ -92,4 +92,16 @@ LineBend LensBend::between(const LineSegment& segment, const Eigen::Vector3d& st
                          : bendThrough(*camera_, kManyShares, segment, from, to);
 }
 
+Eigen::Vector2f LensBend::beyond(const LineSegment& segment, float distance) const {
+  const float share = distance / segment.length();
+  const Eigen::Vector2f straight = segment.at(1.0F + share);
+  if (!camera_) return straight;
+  const std::optional<Eigen::Vector3d> start = camera_->unproject(segment.start.cast<double>());
+  const std::optional<Eigen::Vector3d> end = camera_->unproject(segment.end.cast<double>());
+  if (!start || !end) return straight;
+  const std::optional<Eigen::Vector2d> pixel =
+      camera_->project(*end + static_cast<double>(share) * (*end - *start));
+  return pixel ? Eigen::Vector2f(pixel->cast<float>()) : straight;
+}
+
 }  // namespace tet_line_tracker

@@ -67,7 +67,7 @@ ParameterTable tableOf(DetectionParameters& p) {
   table.add("detection_interval", p.detection_interval, 1, 1000, "",
             "Images from one run of the detector to the next at least");
   table.add("min_detection_support", p.min_detection_support, 0.0, 1.0, "",
-            "Share of a new line that must lie on an edge");
+            "Share of a new line that must lie on an edge; clear edges may have a quarter of the gaps");
   return table;
 }
 

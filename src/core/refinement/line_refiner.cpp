@@ -14,9 +14,13 @@ constexpr int kMinSamples = 6;
 constexpr float kSampleSpacing = 2.0F;     // along the line, more on long ones [px]
 constexpr float kOnEdge = 1.0F;            // a sample this near the fitted line lies on the edge [px]
 constexpr float kMinContrastShare = 0.3F;  // of the contrast of the edge before
-constexpr float kMinSlope = 0.8F;          // slower slopes are noise in any picture [gray / px]
-constexpr float kPeakShare = 0.3F;     // of the slope of the peak: what is under it does not pull its middle
-constexpr float kSigmaFloor = 0.025F;  // what sampling and rounding leave on a perfect edge [px]
+// What the edge must be where a line is to go on: clearly more than noise.
+constexpr float kOnEdgeAhead = 0.75F;   // [px]
+constexpr float kMinReachShare = 0.5F;  // of the contrast of the line
+constexpr float kMinReachSlope = 1.5F;  // [gray / px]
+constexpr float kMinSlope = 0.8F;       // slower slopes are noise in any picture [gray / px]
+constexpr float kPeakShare = 0.3F;      // of the slope of the peak: what is under it does not pull its middle
+constexpr float kSigmaFloor = 0.025F;   // what sampling and rounding leave on a perfect edge [px]
 
 /// What profiles across the line found, from start to end; room for whole vectors.
 struct Samples {
@@ -187,6 +191,36 @@ float LineRefiner::contrastOf(const cv::Mat& gray, const LineCurve& line) const 
   const auto middle = samples.slopes.begin() + samples.count / 2;
   std::nth_element(samples.slopes.begin(), middle, samples.slopes.begin() + samples.count);
   return *middle;
+}
+
+float LineRefiner::reachOf(const cv::Mat& gray, const LineCurve& ahead, float contrast, float max_gap) const {
+  const float length = ahead.chord.length();
+  if (!canBeSampled(ahead.chord)) return 0.0F;
+  const int wanted = std::clamp(static_cast<int>(length / kSampleSpacing), 1, kMaxSamples);
+  const float spacing = length / static_cast<float>(wanted);
+  const float min_slope = std::max(kMinReachSlope, kMinReachShare * std::abs(contrast));
+  ProfileSampler sampler(gray, ahead, contrast, static_cast<float>(parameters_.search_px));
+  Samples samples;
+  sampler.take(wanted, samples);
+  float reach = 0.0F;  // of what belongs to the edge
+  float last = 0.0F;   // where the edge was found last
+  float gap = 0.0F;    // the longest one that is not made up for, and what was found behind it
+  float behind = 0.0F;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(samples.count); ++i) {
+    const float place = 0.5F * (samples.places[i] + 1.0F) * length;
+    if (place - last > max_gap + spacing) break;
+    if (samples.slopes[i] < min_slope || std::abs(samples.offsets[i]) > kOnEdgeAhead) continue;
+    if (place - last > 1.5F * spacing) {
+      gap = std::max(gap, place - last - spacing);
+      behind = 0.0F;
+    }
+    behind += spacing;
+    last = place;
+    if (behind < 2.0F * gap) continue;
+    gap = 0.0F;
+    reach = place;
+  }
+  return reach > length - spacing ? length : reach;  // the last sample stands for the rest
 }
 
 EdgeFit LineRefiner::fit(const cv::Mat& gray, const LineCurve& curve, float contrast) const {

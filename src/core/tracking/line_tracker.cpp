@@ -147,15 +147,21 @@ void LineTracker::Implementation::followTrack(const MotionPrediction& motion, Tr
 
 void LineTracker::Implementation::refine() {
   if (!method_.refiner) return;
-  workers_.run(tracks_.size(), [this](std::size_t i) {
+  const std::uint64_t image = frames_.frame().image_count;
+  workers_.run(tracks_.size(), [this, image](std::size_t i) {
     TrackedLine& line = tracks_.line(i);
     TrackState& state = tracks_.state(i);
     if (state.lost()) return;
     const LineCurve curve = area_.lens().curve(line.segment);
-    const EdgeFit fit = method_.refiner->fit(pyramid_.level(0), curve, state.contrast);
+    EdgeFit fit = method_.refiner->fit(pyramid_.level(0), curve, state.contrast);
     state.bend = curve.bend;
-    state.support = fit.support;
     state.edge_offset = std::abs(fit.segment.distance(line.segment.middle()));
+    const LineSegment found = fit.segment;
+    if (method_.grower &&
+        method_.grower->growTracked(pyramid_.level(0), area_, image, line, fit, state.bend)) {
+      state.setGrown(found, fit.segment);
+    }
+    state.support = fit.support;
     state.contrast = fit.contrast;
     line.segment = fit.segment;
     line.sigma_px = fit.sigma_px;

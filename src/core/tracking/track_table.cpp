@@ -20,6 +20,12 @@ LossReason lossOf(EndpointFlow::Status status) {
   return LossReason::kCount;
 }
 
+void TrackState::setGrown(const LineSegment& before, const LineSegment& after) {
+  template_due = true;
+  const float length = before.length();
+  rotated = {rotated.at(before.along(after.start) / length), rotated.at(before.along(after.end) / length)};
+}
+
 void TrackTable::add(const EdgeFit& edge, const LineBend& bend) {
   TrackedLine& line = lines_.emplace_back();
   line.id = next_id_++;

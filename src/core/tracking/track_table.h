@@ -34,6 +34,10 @@ struct TrackState {
   float support{1.0F};      ///< share of the line that lies on an edge, 0..1
   LossReason loss{LossReason::kCount};  ///< kCount: not lost
 
+  /// The line as it was found in this image has grown along itself from `before` to `after`: its templates
+  /// are due, and its parallax is that of the new ends.
+  void setGrown(const LineSegment& before, const LineSegment& after);
+
   bool lost() const { return loss != LossReason::kCount; }
 };
 

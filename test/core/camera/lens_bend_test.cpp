@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 namespace tet_line_tracker {
 namespace {
@@ -67,6 +68,28 @@ TEST(LensBend, IsWithinAHundredthOfAPixelOfTheProjectedLine) {
     EXPECT_GT(judged, 500) << lens.name;
     EXPECT_LT(worst, 0.013F) << lens.name;
   }
+}
+
+TEST(LensBend, ALineGoesOnBeyondItsEndInThePlaneOfItsRays) {
+  for (const Lens& lens : lenses()) {
+    const LensBend bend(lens.camera, lens.width, lens.height);
+    const float w = static_cast<float>(lens.width);
+    const float h = static_cast<float>(lens.height);
+    // Towards the right, above the centre.
+    const LineSegment line{{0.4F * w, 0.25F * h}, {0.55F * w, 0.22F * h}};
+    const Eigen::Vector3d plane = lens.camera->unproject(line.start.cast<double>())
+                                      ->cross(*lens.camera->unproject(line.end.cast<double>()))
+                                      .normalized();
+    for (const float distance : {5.0F, 50.0F}) {
+      const Eigen::Vector2f pixel = bend.beyond(line, distance);
+      const auto ray = lens.camera->unproject(pixel.cast<double>());
+      ASSERT_TRUE(ray) << lens.name;
+      EXPECT_LT(std::abs(plane.dot(*ray)), 1e-5) << lens.name;
+      EXPECT_NEAR((pixel - line.end).norm(), distance, 0.25F * distance) << lens.name;
+      EXPECT_GT(line.along(pixel), line.length());
+    }
+  }
+  EXPECT_EQ(LensBend().beyond({{0.0F, 10.0F}, {30.0F, 10.0F}}, 12.0F), Eigen::Vector2f(42.0F, 10.0F));
 }
 
 TEST(LensBend, APinholeBendsNothing) {
