@@ -248,9 +248,9 @@ void measureTimes(const std::vector<LineFrame>& frames, TrackMeasures& measures)
 
 }  // namespace
 
-double gridCoverage(const LineFrame& frame) {
+double gridCoverage(const LineFrame& frame, const LensBend& lens) {
   CoverageGrid grid(frame.width, frame.height);
-  for (const TrackedLine& line : frame.lines) grid.add(line.segment);
+  for (const TrackedLine& line : frame.lines) grid.add(lens.curve(line.segment));
   return static_cast<double>(grid.coverage());
 }
 
@@ -262,6 +262,11 @@ TrackMeasures measureTracks(const std::vector<LineFrame>& frames, bool has_stati
   const std::vector<Track> tracks = collectTracks(frames);
   measures.tracks = tracks.size();
 
+  LensBend lens;
+  if (truth != nullptr) {
+    const std::shared_ptr<const CameraModel> not_owned(std::shared_ptr<void>(), &truth->camera());
+    lens = LensBend(not_owned, frames.front().width, frames.front().height);
+  }
   std::vector<double> coverages;
   std::size_t lines = 0;
   double lengths = 0.0;
@@ -272,7 +277,7 @@ TrackMeasures measureTracks(const std::vector<LineFrame>& frames, bool has_stati
     detections += frame.detected ? 1 : 0;
     measures.lines.push_back(frame.lines.size());
     measures.seconds.push_back(1e-9 * static_cast<double>(frame.stamp_ns - frames.front().stamp_ns));
-    coverages.push_back(gridCoverage(frame));
+    coverages.push_back(gridCoverage(frame, lens));
   }
   measures.lines_per_image = shareOf(lines, frames.size());
   if (lines > 0) measures.line_length = lengths / static_cast<double>(lines);

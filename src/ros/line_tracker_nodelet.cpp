@@ -173,6 +173,7 @@ void LineTrackerNodelet::track(const sensor_msgs::Image& image) {
   }
   epoch_ = frame.epoch;
   diagnostics_.addTracked(frame, frame.statistics.total_ms);
+  publisher_->setCamera(model.camera);
   if (publisher_->publish(frame, image.header.frame_id, gray, replaced)) diagnostics_.addPublished();
 }
 

@@ -67,7 +67,7 @@ void TrackTable::predictParallax() {
 
 float TrackTable::coverage(const cv::Size& size) const {
   CoverageGrid grid(size.width, size.height);
-  for (const TrackedLine& line : lines_) grid.add(line.segment);
+  for (std::size_t i = 0; i < lines_.size(); ++i) grid.add({lines_[i].segment, states_[i].bend});
   return grid.coverage();
 }
 
