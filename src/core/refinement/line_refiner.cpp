@@ -16,7 +16,9 @@ constexpr float kOnEdge = 1.0F;            // a sample this near the fitted line
 constexpr float kMinContrastShare = 0.3F;  // of the contrast of the edge before
 constexpr float kMinSlope = 0.8F;          // slower slopes are noise in any picture [gray / px]
 constexpr float kPeakShare = 0.3F;     // of the slope of the peak: what is under it does not pull its middle
-constexpr float kSigmaFloor = 0.025F;  // what sampling and rounding leave on a perfect edge [px]
+constexpr float kSigmaFloor = 0.009F;  // what sampling and rounding leave on a perfect edge [px]
+constexpr float kCorrelation =
+    1.7F;  // variance of the fit over that of independent samples: neighbours err alike
 
 /// What profiles across the line found, from start to end; room for whole vectors.
 struct Samples {
@@ -65,16 +67,17 @@ class ProfileSampler {
     const std::size_t wanted = static_cast<std::size_t>(count);
     const float spacing = length_ / static_cast<float>(count);
     const bool bent = !bend_.isStraight();
+    std::array<float, Samples::kCapacity> crosses;
     for (std::size_t i = 0; i < wanted; ++i) {
       const float along = (static_cast<float>(i) + 0.5F) * spacing;
-      const int main = nearestPixel(start_main_ + along * main_per_along_);
-      float cross = start_cross_ + (static_cast<float>(main) - start_main_) * cross_per_main_;
+      mains_[i] = nearestPixel(start_main_ + along * main_per_along_);
+      crosses[i] = start_cross_ + (static_cast<float>(mains_[i]) - start_main_) * cross_per_main_;
       samples.places[i] = 2.0F * along / length_ - 1.0F;
-      if (bent) cross += bendAt(main, &samples.places[i]);
-      const int begin = nearestPixel(cross) - reach_ - 1;
-      mains_[i] = main;
-      begins_[i] = begin;
-      centres_[i] = cross - static_cast<float>(begin);
+    }
+    if (bent) moveToCurve(wanted, crosses, samples);
+    for (std::size_t i = 0; i < wanted; ++i) {
+      begins_[i] = nearestPixel(crosses[i]) - reach_ - 1;
+      centres_[i] = crosses[i] - static_cast<float>(begins_[i]);
     }
     // A straight line with both ends inside is all inside.
     std::size_t kept = wanted;
@@ -107,15 +110,36 @@ class ProfileSampler {
     return static_cast<int>(place + (static_cast<float>(kShift) + 0.5F)) - kShift;
   }
 
-  /// From the chord to the curve, along the profile at pixel `main` of the main axis [px]; sets the place of
-  /// that point along the line.
-  float bendAt(int main, float* place) const {
-    const float on_chord = (static_cast<float>(main) - start_main_) / (main_per_along_ * length_);
+  using Floats = std::array<float, Samples::kCapacity>;
+
+  /// Moves the crossings of the profiles from the chord to the curve; sets their places along the line. In
+  /// loops over all samples, which compilers turn into vectors.
+  void moveToCurve(std::size_t count, Floats& crosses, Samples& samples) const {
+    const float share_per_main = 1.0F / (main_per_along_ * length_);
+    const float cross_per_offset = 1.0F / normal_share_;
     // The profile is not along the normal: it meets the curve beside where it meets the chord.
-    const float first = bend_.offset(on_chord) / normal_share_;
-    const float fraction = on_chord + first * along_per_cross_ / length_;
-    *place = 2.0F * fraction - 1.0F;
-    return bend_.offset(fraction) / normal_share_;
+    const float share_per_offset = cross_per_offset * along_per_cross_ / length_;
+    Floats fractions, offsets;
+    for (std::size_t i = 0; i < count; ++i) {
+      fractions[i] = (static_cast<float>(mains_[i]) - start_main_) * share_per_main;
+    }
+    findOffsets(count, fractions, offsets);
+    for (std::size_t i = 0; i < count; ++i) fractions[i] += offsets[i] * share_per_offset;
+    findOffsets(count, fractions, offsets);
+    for (std::size_t i = 0; i < count; ++i) {
+      samples.places[i] = 2.0F * fractions[i] - 1.0F;
+      crosses[i] += offsets[i] * cross_per_offset;
+    }
+  }
+
+  /// LineBend::offset() of many fractions.
+  void findOffsets(std::size_t count, const Floats& fractions, Floats& offsets) const {
+    for (std::size_t i = 0; i < count; ++i) offsets[i] = bend_.c[bend_.terms - 1];
+    for (std::size_t k = bend_.terms - 1; k-- > 0;) {
+      const float c = bend_.c[k];
+      for (std::size_t i = 0; i < count; ++i) offsets[i] = offsets[i] * (2.0F * fractions[i] - 1.0F) + c;
+    }
+    for (std::size_t i = 0; i < count; ++i) offsets[i] *= fractions[i] * (1.0F - fractions[i]);
   }
 
   bool inside(std::size_t i) const {
@@ -215,7 +239,7 @@ EdgeFit LineRefiner::fit(const cv::Mat& gray, const LineCurve& curve, float cont
   if (result.support < static_cast<float>(parameters_.min_support)) return result;
 
   result.contrast = std::copysign(slopes / supported, contrast);
-  const float variance = squares / (supported - 2.0F);
+  const float variance = kCorrelation * squares / (supported - 2.0F);
   constexpr float kFloor = kSigmaFloor * kSigmaFloor;
   result.sigma_px = std::sqrt(kFloor + variance / supported);
   // Of the ends, at -1 and 1. The floor is of offset and tilt alike: a sampling error differs along the line.
