@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -122,6 +123,20 @@ void LineTracker::Implementation::follow(const MotionPrediction& motion) {
                [&](std::size_t i) { followTrack(motion, tracks_.line(i), tracks_.state(i)); });
 }
 
+/// The bend of `before` at `moved`, when this is so near that it is the same but for the length, to about
+/// 0.02 px.
+std::optional<LineBend> bendNearby(const LineCurve& before, const LineSegment& moved) {
+  constexpr float kFar = 4.0F;  // [px^2], of sagitta and way: bends change over a focal length or so
+  const float sagitta = 0.25F * (std::abs(before.bend.c[0]) + std::abs(before.bend.c[1]));
+  const float way =
+      std::max((moved.start - before.chord.start).norm(), (moved.end - before.chord.end).norm());
+  if (!(sagitta * way < kFar)) return std::nullopt;
+  const float stretch = moved.length() / before.chord.length();
+  LineBend bend = before.bend;
+  for (float& coefficient : bend.c) coefficient *= stretch * stretch;
+  return bend;
+}
+
 /// Touches nothing but its track: tracks are followed in parallel.
 void LineTracker::Implementation::followTrack(const MotionPrediction& motion, TrackedLine& line,
                                               TrackState& state) const {
@@ -129,8 +144,11 @@ void LineTracker::Implementation::followTrack(const MotionPrediction& motion, Tr
   state.predicted = {state.rotated.start + state.start_parallax, state.rotated.end + state.end_parallax};
   LineCurve expected(state.predicted);
   if (!area_.lens().isStraight() && line.start_normalized.allFinite() && line.end_normalized.allFinite()) {
-    expected.bend = area_.lens().between(state.rotated, motion.rotation * line.start_normalized.homogeneous(),
-                                         motion.rotation * line.end_normalized.homogeneous());
+    const auto nearby = bendNearby({line.segment, state.bend}, state.rotated);
+    expected.bend =
+        nearby ? *nearby
+               : area_.lens().between(state.rotated, motion.rotation * line.start_normalized.homogeneous(),
+                                      motion.rotation * line.end_normalized.homogeneous());
   }
   const EndpointFlow flow = method_.flow->track(state.patches, pyramid_, expected);
   state.loss = lossOf(flow.status);
