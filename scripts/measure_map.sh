@@ -2,16 +2,18 @@
 # Maps simulated flights with true poses and judges the maps by the true edges: the table "How good a map the tracks give" of
 # docs/vio.md.
 #
-#   scripts/measure_map.sh RESULTS [SECONDS]
+#   scripts/measure_map.sh RESULTS [SECONDS [SEED]]
 #
 # RESULTS: folder for bags and tables; flights that are there are used again. SECONDS: of a flight (40).
+# SEED: of the flights (1).
 set -euo pipefail
 case ${1:-} in
-  --help | -h | "") sed -n '2,7s/^# \{0,1\}//p' "$0" && exit ;;
+  --help | -h | "") sed -n '2,8s/^# \{0,1\}//p' "$0" && exit ;;
 esac
 mkdir -p "$1"
 results=$(cd "$1" && pwd)
 seconds=${2:-40}
+seed=${3:-1}
 . "$(dirname "$0")/environment.sh"
 scripts/build.sh
 sourceSetup "$build/devel/setup.bash"
@@ -41,7 +43,7 @@ map() {
   local flight=$results/$1.bag name=$1-$2
   # The flight's words are options.
   # shellcheck disable=SC2086
-  [ -e "$flight" ] || "$tools/simulate_bag" "$flight" ${flights[$1]} --seconds "$seconds"
+  [ -e "$flight" ] || "$tools/simulate_bag" "$flight" ${flights[$1]} --seconds "$seconds" --seed "$seed"
   "$tools/track_bag" "$flight" "$results/$name-tracks.bag" --tracker "$2" >"$results/$name.txt"
   "$tools/check_lines" "$results/$name-tracks.bag"
   "$tools/map_bag" "$results/$name-tracks.bag" "$results/$name.bag"
