@@ -69,5 +69,15 @@ TEST(TrackTable, TheOtherTracksKeepTheirOrderAndTheirState) {
   }
 }
 
+TEST(TrackTable, CountsTheCellsThatABentLineCrosses) {
+  TrackTable tracks;
+  EdgeFit edge;
+  edge.segment = {{0.0F, 90.0F}, {639.0F, 90.0F}};
+  tracks.add(edge, LineBend{{60.0F}});
+  // Eight cells along the chord; the curve rises into the row above in six columns, two of which show both
+  // rows.
+  EXPECT_FLOAT_EQ(48.0F * tracks.coverage({640, 480}), 10.0F);
+}
+
 }  // namespace
 }  // namespace tet_line_tracker
