@@ -16,12 +16,15 @@ fail() {
   exit 1
 }
 
-# For scripts that take no options: --help prints the comment at the head of the script and ends it.
+# Prints the comment at the head of the script.
+printHelp() { sed -n '2,/^[^#]/s/^# \{0,1\}//p' "scripts/$(basename "$0")"; }
+
+# For scripts that take no options: --help prints the help and ends the script.
 answerHelp() {
   local argument
   for argument in "$@"; do
     case $argument in
-      --help | -h) sed -n '2,/^[^#]/s/^# \{0,1\}//p' "scripts/$(basename "$0")" && exit ;;
+      --help | -h) printHelp && exit ;;
       -*) fail "unknown option $argument; see --help" ;;
     esac
   done

@@ -2,20 +2,16 @@
 # Maps simulated flights with true poses and judges the maps by the true edges: the table "How good a map the tracks give" of
 # docs/vio.md.
 #
-#   scripts/measure_map.sh RESULTS [SECONDS]
+#   scripts/measure_map.sh RESULTS [--tuning] [SEED [SECONDS]]
 #
-# RESULTS: folder for bags and tables; flights that are there are used again. SECONDS: of a flight (40).
+# RESULTS: folder for bags and tables; flights that are there are used again. SEED: of the flights (1001), from 1000 on; below 1000
+# with --tuning. SECONDS: of a flight (40).
 set -euo pipefail
-case ${1:-} in
-  --help | -h | "") sed -n '2,7s/^# \{0,1\}//p' "$0" && exit ;;
-esac
-mkdir -p "$1"
-results=$(cd "$1" && pwd)
-seconds=${2:-40}
-. "$(dirname "$0")/environment.sh"
-scripts/build.sh
-sourceSetup "$build/devel/setup.bash"
-tools=$build/devel/lib/tet_line_tracker
+. "$(dirname "$0")/measuring.sh"
+seed=${arguments[0]:-$(defaultSeeds)}
+seconds=${arguments[1]:-40}
+requireSeeds "$seed"
+prepareTools
 
 # lens NAME SIZE F C MODEL COEFFICIENTS: a calibration file for a square image; its largest circle is the field of view.
 lens() {
@@ -38,16 +34,17 @@ declare -A flights=(
 maps=()
 # map FLIGHT TRACKER: tracks, holds the lines against their rules, and maps.
 map() {
-  local flight=$results/$1.bag name=$1-$2
+  local flight=$results/$1-$seed.bag name=$1-$seed-$2
   # The flight's words are options.
   # shellcheck disable=SC2086
-  [ -e "$flight" ] || "$tools/simulate_bag" "$flight" ${flights[$1]} --seconds "$seconds"
+  simulate "$flight" "$seed" ${flights[$1]} --seconds "$seconds"
   "$tools/track_bag" "$flight" "$results/$name-tracks.bag" --tracker "$2" >"$results/$name.txt"
   "$tools/check_lines" "$results/$name-tracks.bag"
   "$tools/map_bag" "$results/$name-tracks.bag" "$results/$name.bag"
   maps+=("$results/$name.bag")
 }
 {
+  heading maps
   map slow tet
   map slow lk_endpoints
   map slow lsd_lbd_knn

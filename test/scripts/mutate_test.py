@@ -1,0 +1,28 @@
+#!/usr/bin/env python3
+"""Tests of scripts/mutate.py and its table.   mutate_test.py [RESULT.xml]"""
+import os
+import unittest
+
+import cases
+import mutate
+
+
+class Mutations(unittest.TestCase):
+    def setUp(self):
+        os.chdir(cases.ROOT)
+
+    def test_every_mutation_still_finds_its_line_in_the_core(self):
+        self.assertGreater(len(mutate.mutations()), 40)
+
+    def test_a_mutation_whose_line_has_moved_is_an_error(self):
+        original = mutate.read
+        mutate.read = lambda path: ''
+        try:
+            with self.assertRaisesRegex(mutate.Failure, 'mutation 1: .* is 0 times in .*, must be there once'):
+                mutate.mutations()
+        finally:
+            mutate.read = original
+
+
+if __name__ == '__main__':
+    cases.run(Mutations)
