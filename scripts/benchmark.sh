@@ -52,8 +52,9 @@ if [ -n "$old" ]; then
   sourceSetup "$build/devel/setup.bash"
   if [ ${#bags[@]} -eq 0 ]; then
     bags=("$work/pinhole.bag" "$work/lens.bag")
+    writeLens "$work/pinhole.yaml" 752 480 458 376 240 plumb_bob "0, 0, 0, 0, 0"
     [ -e "$work/pinhole.bag" ] ||
-      "$tools/simulate_bag" "$work/pinhole.bag" --seconds 10 --seed 1001 --camera-info scripts/pinhole.yaml
+      "$tools/simulate_bag" "$work/pinhole.bag" --seconds 10 --seed 1001 --camera-info "$work/pinhole.yaml"
     [ -e "$work/lens.bag" ] || "$tools/simulate_bag" "$work/lens.bag" --seconds 10 --seed 1001
     if [ -d "$data" ]; then
       [ -e "$work/euroc_v1_01.bag" ] || "$tools/dataset_to_bag" euroc "$data" "$work/euroc_v1_01.bag"

@@ -99,6 +99,18 @@ requireFlight() {
   "$build/devel/lib/tet_line_tracker/simulate_bag" "$flight" --seconds 10
 }
 
+# writeLens FILE WIDTH HEIGHT F CX CY MODEL COEFFICIENTS: a calibration file.
+writeLens() {
+  cat >"$1" <<END
+image_width: $2
+image_height: $3
+camera_name: $(basename "$1" .yaml)
+camera_matrix: {rows: 3, cols: 3, data: [$4, 0, $5, 0, $4, $6, 0, 0, 1]}
+distortion_model: $7
+distortion_coefficients: {rows: 1, cols: $(wc -w <<<"${8//,/ }"), data: [$8]}
+END
+}
+
 # Starts a master on a free port, so that parameters and topics of somebody else's stay as they are. Whatever is in
 # `children` ends with the script.
 children=()

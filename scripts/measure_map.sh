@@ -13,19 +13,9 @@ seconds=${arguments[1]:-40}
 requireSeeds "$seed"
 prepareTools
 
-# lens NAME SIZE F C MODEL COEFFICIENTS: a calibration file for a square image; its largest circle is the field of view.
-lens() {
-  cat >"$results/$1.yaml" <<END
-image_width: $2
-image_height: $2
-camera_name: $1
-camera_matrix: {rows: 3, cols: 3, data: [$3, 0, $4, 0, $3, $4, 0, 0, 1]}
-distortion_model: $5
-distortion_coefficients: {rows: 1, cols: $(wc -w <<<"${6//,/ }"), data: [$6]}
-END
-}
-lens equidistant 752 226.7 375.5 equidistant "0, 0, 0, 0"  # 190 degrees
-lens mei 700 668.2 349.5 mei "2.2134, 0.0168, 1.6549, 0, 0"  # 185 degrees, as KITTI-360
+# Square images, whose largest circle is the field of view.
+writeLens "$results/equidistant.yaml" 752 752 226.7 375.5 375.5 equidistant "0, 0, 0, 0"               # 190 degrees
+writeLens "$results/mei.yaml" 700 700 668.2 349.5 349.5 mei "2.2134, 0.0168, 1.6549, 0, 0"  # 185 degrees, as KITTI-360
 
 declare -A flights=(
   [slow]="--motion slow" [shake]="--motion shake" [equidistant]="--motion slow --camera-info $results/equidistant.yaml"
