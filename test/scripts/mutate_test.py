@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Tests of scripts/mutate.py and its table.   mutate_test.py [RESULT.xml]"""
 import os
+import tempfile
 import unittest
 
 import cases
@@ -22,6 +23,13 @@ class Mutations(unittest.TestCase):
                 mutate.mutations()
         finally:
             mutate.read = original
+
+    def test_the_copy_of_the_project_hides_no_launch_file_of_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for _ in range(2):
+                mutate.copy_source(folder)
+                self.assertEqual(os.listdir(os.path.join(folder, 'launch')), [])
+                self.assertTrue(os.path.exists(os.path.join(folder, 'src/core/tracking/checks.cpp')))
 
 
 if __name__ == '__main__':
