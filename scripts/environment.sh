@@ -82,7 +82,9 @@ buildSanitized() {
   requirePackages "${packages_build[@]}" "${packages_test[@]}"
   mkdir -p "$sanitized/devel/lib/python3/dist-packages"
   if [ ! -e "$sanitized/build.ninja" ]; then
-    cmake -S . -B "$sanitized" -G Ninja -DCMAKE_BUILD_TYPE=None -DCATKIN_ENABLE_TESTING=ON -DTET_FUZZ=ON \
+    local launcher=()
+    if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
+    cmake -S . -B "$sanitized" -G Ninja -DCMAKE_BUILD_TYPE=None -DCATKIN_ENABLE_TESTING=ON -DTET_FUZZ=ON "${launcher[@]}" \
       -DCMAKE_CXX_FLAGS="-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer" \
       >"$build/sanitized/configure.log" 2>&1 || { cat "$sanitized/configure.log" >&2; fail "CMake could not configure the sanitized build"; }
   fi

@@ -5,8 +5,8 @@
 #
 # RESULTS: folder for bags and tables. A step that is done is not done again: after an interruption, start the same command
 # again; results of another commit are refused. STEP: only these, of tracking, tracking_3, priors, still, lens, map, paper, speed
-# and contract. --short: flights of 2 s, to try the command; speed takes as long as ever. On two processors that do nothing else
-# all of it takes about HOURS hours. Times count only where nothing else runs: that is for speed, and for the times of paper.
+# and contract. --short: flights of 2 s, to try the command; speed takes as long as ever. All of it takes in the order of an hour on
+# two processors; the list at the end has the minutes of each step. The times of speed and paper count only where nothing else runs.
 set -euo pipefail
 short=false
 for argument in "$@"; do

@@ -26,6 +26,10 @@ class XmlResult(unittest.TextTestResult):
 
     addError = addFailure
 
+    def addSkip(self, test, reason):
+        super().addSkip(test, reason)
+        ElementTree.SubElement(self.case, 'skipped', message=reason)
+
 
 def run(*classes):
     """Runs the cases of the classes, writes the file that the command line names, and ends the program."""
