@@ -110,34 +110,18 @@ def tidy_batches(units, flags_of, content_of):
     return [batch[2] for batch in batches]
 
 
-def joined(units, content_of):
-    """The text of a batch, and for each of its lines the (file, line) that it comes from."""
-    lines = []
-    origins = []
-    for number, unit in enumerate(units):
-        content = content_of(unit).splitlines()
-        # Each program has a main.
-        lines += ['#define main main_of_{}'.format(number)] + content + ['#undef main']
-        origins += [(unit, 1)] + [(unit, i + 1) for i in range(len(content))] + [(unit, len(content))]
-    return '\n'.join(lines) + '\n', origins
-
-
 def run_tidy(units, entries, folder):
-    """clang-tidy over a batch as one file, or over one file. A RuntimeError holds what it complains of."""
+    """clang-tidy over source files as if they were one. A RuntimeError holds what it complains of."""
+    work = os.path.abspath(os.path.join(folder, hashlib.sha256(' '.join(units).encode()).hexdigest()[:12]))
+    os.makedirs(work, exist_ok=True)
     source = os.path.abspath(units[0])
-    origins = None
-    entry = entries[units[0]]
     if len(units) > 1:
-        text, origins = joined(units, lambda unit: read(unit).decode())
-        # clang-tidy checks what lies in a folder of the project: HeaderFilterRegex is for headers only.
-        work = os.path.join(folder, hashlib.sha256(' '.join(units).encode()).hexdigest()[:12])
-        os.makedirs(work, exist_ok=True)
-        source = os.path.abspath(os.path.join(work, 'batch.cpp'))
-        with open(source, 'w') as file:
-            file.write(text)
-    else:
-        work = os.path.join(folder, hashlib.sha256(units[0].encode()).hexdigest()[:12])
-        os.makedirs(work, exist_ok=True)
+        source = os.path.join(work, 'batch.cpp')
+        with open(source, 'wb') as file:
+            for number, unit in enumerate(units):
+                # Each program has a main.
+                file.write(b'#define main main_of_%d\n%s\n#undef main\n' % (number, read(unit)))
+    entry = entries[units[0]]
     folders = dict.fromkeys(os.path.abspath(os.path.dirname(unit)) for unit in units)
     flags = tidy_flags(entry) + [word for path in folders for word in ('-iquote', path)] + ['-c', source]
     with open(os.path.join(work, 'compile_commands.json'), 'w') as file:
@@ -146,10 +130,7 @@ def run_tidy(units, entries, folder):
         run('clang-tidy', '--quiet', '--config-file=.clang-tidy', '-p', work, source)
     except RuntimeError as complaint:
         # It counts what it holds back in the headers of others.
-        text = re.sub(r'(?m)^\d+ warnings? generated\.\n', '', str(complaint))
-        if origins:
-            text = re.sub(re.escape(source) + r':(\d+)', lambda match: '{}:{}'.format(*origins[int(match.group(1)) - 1]), text)
-        raise RuntimeError(text)
+        raise RuntimeError(re.sub(r'(?m)^\d+ warnings? generated\.\n', '', str(complaint)))
 
 
 def check_tidy(files, build):
@@ -176,12 +157,16 @@ def check_tidy(files, build):
             return
         try:
             run_tidy(batch, entries, folder)
-        except RuntimeError as complaint:
-            if len(batch) == 1 or 'clang-diagnostic-error' not in str(complaint):
-                raise
-            # They do not compile as one after all.
+        except RuntimeError:
+            # Which file is it? None, when they only do not compile as one.
+            found = []
             for unit in batch:
-                run_tidy([unit], entries, folder)
+                try:
+                    run_tidy([unit], entries, folder)
+                except RuntimeError as complaint:
+                    found.append(str(complaint))
+            if found:
+                raise RuntimeError('\n'.join(found))
         open(stamp, 'w').close()
 
     batches = tidy_batches(units, lambda unit: tuple(tidy_flags(entries[unit])), lambda unit: read(unit).decode())
