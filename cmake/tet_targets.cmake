@@ -33,11 +33,11 @@ function(tet_add_ros_test name)
   endif()
 endfunction()
 
-# A test with a master and nodes. Further arguments: sources that tests share.
+# A test with a master and nodes.
 function(tet_add_rostest name)
   if(CATKIN_ENABLE_TESTING)
     set(folder ${PROJECT_SOURCE_DIR}/test/ros)
-    add_rostest_gtest(${name} ${folder}/${name}.test ${folder}/${name}.cpp ${ARGN})
+    add_rostest_gtest(${name} ${folder}/${name}.test ${folder}/${name}.cpp)
     target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src/ros)
     tet_tell_folders(${name})
     tet_link_ros(${name} tet_line_tracker_ros gtest)
@@ -53,14 +53,14 @@ function(tet_add_tool name)
   set_property(GLOBAL APPEND PROPERTY TET_TOOLS ${name})
 endfunction()
 
-# A test that runs tools as programs. Further arguments: sources that tests share.
+# A test that runs tools as programs.
 function(tet_add_tool_test name)
   if(CATKIN_ENABLE_TESTING)
     set(folder ${PROJECT_SOURCE_DIR}/test/tools)
-    catkin_add_gtest(${name} ${folder}/${name}.cpp ${folder}/tool_run.cpp ${ARGN})
+    catkin_add_gtest(${name} ${folder}/${name}.cpp)
     target_include_directories(${name} PRIVATE ${folder} ${PROJECT_SOURCE_DIR}/src/tools)
     tet_tell_folders(${name})
-    tet_link_ros(${name} tet_line_tracker_tools gtest_main)
+    tet_link_ros(${name} tet_tool_testing tet_line_tracker_tools gtest_main)
     get_property(tools GLOBAL PROPERTY TET_TOOLS)
     add_dependencies(${name} ${tools})
   endif()

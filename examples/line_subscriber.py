@@ -7,6 +7,13 @@ from std_msgs.msg import String
 from tet_line_tracker.msg import LineArray
 
 
+def weights_of_ends(line):
+    """Weights of the distances of start and end across the line [1/px^2]: 0 where the tracker knows nothing.
+    An estimator that can should use the whole matrix (covariance_px[1] is the covariance of both)."""
+    start, _, end = line.covariance_px
+    return (1.0 / start, 1.0 / end) if start > 0.0 and end > 0.0 else (0.0, 0.0)
+
+
 class LineSubscriber:
     def __init__(self):
         self.epoch = 0
@@ -19,11 +26,11 @@ class LineSubscriber:
             self.views = {}
         self.epoch = array.epoch
         # A line that is missing once never comes back under its id. Not finite: no calibration, or the line is
-        # not in front of the camera. Weigh a line by 1 / sigma_px where that is finite.
+        # not in front of the camera.
         self.views = {line.id: self.views.get(line.id, []) + [line] for line in array.lines
                       if math.isfinite(line.start_normalized[0])}
-        usable = sum(len(track) >= 5 for track in self.views.values())
-        self.summary.publish("%d lines, %d seen 5 times" % (len(self.views), usable))
+        usable = sum(len(track) >= 5 and weights_of_ends(track[-1])[0] > 0.0 for track in self.views.values())
+        self.summary.publish("%d lines, %d usable" % (len(self.views), usable))
 
 
 if __name__ == "__main__":

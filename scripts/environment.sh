@@ -16,12 +16,15 @@ fail() {
   exit 1
 }
 
-# For scripts that take no options: --help prints the comment at the head of the script and ends it.
+# Prints the comment at the head of the script.
+printHelp() { sed -n '2,/^[^#]/s/^# \{0,1\}//p' "scripts/$(basename "$0")"; }
+
+# For scripts that take no options: --help prints the help and ends the script.
 answerHelp() {
   local argument
   for argument in "$@"; do
     case $argument in
-      --help | -h) sed -n '2,/^[^#]/s/^# \{0,1\}//p' "scripts/$(basename "$0")" && exit ;;
+      --help | -h) printHelp && exit ;;
       -*) fail "unknown option $argument; see --help" ;;
     esac
   done
@@ -79,7 +82,9 @@ buildSanitized() {
   requirePackages "${packages_build[@]}" "${packages_test[@]}"
   mkdir -p "$sanitized/devel/lib/python3/dist-packages"
   if [ ! -e "$sanitized/build.ninja" ]; then
-    cmake -S . -B "$sanitized" -G Ninja -DCMAKE_BUILD_TYPE=None -DCATKIN_ENABLE_TESTING=ON -DTET_FUZZ=ON \
+    local launcher=()
+    if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
+    cmake -S . -B "$sanitized" -G Ninja -DCMAKE_BUILD_TYPE=None -DCATKIN_ENABLE_TESTING=ON -DTET_FUZZ=ON "${launcher[@]}" \
       -DCMAKE_CXX_FLAGS="-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer" \
       >"$build/sanitized/configure.log" 2>&1 || { cat "$sanitized/configure.log" >&2; fail "CMake could not configure the sanitized build"; }
   fi
@@ -94,6 +99,18 @@ requireFlight() {
   mkdir -p "$build/demo"
   echo "Simulating a flight, once ..."
   "$build/devel/lib/tet_line_tracker/simulate_bag" "$flight" --seconds 10
+}
+
+# writeLens FILE WIDTH HEIGHT F CX CY MODEL COEFFICIENTS: a calibration file.
+writeLens() {
+  cat >"$1" <<END
+image_width: $2
+image_height: $3
+camera_name: $(basename "$1" .yaml)
+camera_matrix: {rows: 3, cols: 3, data: [$4, 0, $5, 0, $4, $6, 0, 0, 1]}
+distortion_model: $7
+distortion_coefficients: {rows: 1, cols: $(wc -w <<<"${8//,/ }"), data: [$8]}
+END
 }
 
 # Starts a master on a free port, so that parameters and topics of somebody else's stay as they are. Whatever is in

@@ -9,6 +9,7 @@ import hashlib
 import json
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -18,6 +19,7 @@ import rooms
 
 # clang-format's style differs between its versions; this one is Debian 12's.
 CLANG_FORMAT_VERSION = 14
+MAX_TIDY_BATCH = 8  # source files; more would leave a processor idle at the end
 # Spelled so that this file does not find itself.
 MACHINE_PATH = re.compile(r'(?:^|[^\w.~)}\]/*-])/(?:ho' r'me|wo' r'rk|ro' r'ot|tm' r'p|Us' r'ers)/')
 
@@ -64,35 +66,112 @@ def check_format(files):
     run('clang-format', '--dry-run', '--Werror', *(f for f in files if f.endswith(('.cpp', '.h'))))
 
 
+def tidy_flags(entry):
+    """The words of an entry of the compilation database without the names of its files."""
+    words = [word for word in shlex.split(entry['command']) if os.path.basename(word) != 'ccache']
+    source = os.path.realpath(os.path.join(entry['directory'], entry['file']))
+    flags = []
+    skip = False
+    for word in words:
+        if skip or word == '-o':
+            skip = not skip
+        elif word != '-c' and os.path.realpath(os.path.join(entry['directory'], word)) != source:
+            flags.append(word)
+    return flags
+
+
+def local_names(content):
+    """Names that a source file defines for itself, in unnamed namespaces."""
+    names = set()
+    for body in re.findall(r'^namespace \{$(.*?)^\}  // namespace$', content, re.MULTILINE | re.DOTALL):
+        for line in re.findall(r'^[A-Za-z].*$', body, re.MULTILINE):
+            words = re.findall(r'\w+', re.split(r'[(={;]', line)[0])
+            names.update(words[-1:])
+    return names
+
+
+def tidy_batches(units, flags_of, content_of):
+    """Lists of source files that clang-tidy can read as one: with the same flags, no local name in two of them.
+
+    What takes its time are the headers of Eigen, OpenCV, ROS and the standard library, which it checks like any other
+    source; a batch does so once.
+    """
+    batches = []  # [flags, names, units]
+    for unit in units:
+        flags = flags_of(unit)
+        names = local_names(content_of(unit))
+        for batch in batches:
+            if batch[0] == flags and len(batch[2]) < MAX_TIDY_BATCH and not batch[1] & names:
+                batch[1].update(names)
+                batch[2].append(unit)
+                break
+        else:
+            batches.append([flags, set(names), [unit]])
+    return [batch[2] for batch in batches]
+
+
+def run_tidy(units, entries, folder):
+    """clang-tidy over source files as if they were one. A RuntimeError holds what it complains of."""
+    work = os.path.abspath(os.path.join(folder, hashlib.sha256(' '.join(units).encode()).hexdigest()[:12]))
+    os.makedirs(work, exist_ok=True)
+    source = os.path.abspath(units[0])
+    if len(units) > 1:
+        source = os.path.join(work, 'batch.cpp')
+        with open(source, 'wb') as file:
+            for number, unit in enumerate(units):
+                # Each program has a main.
+                file.write(b'#define main main_of_%d\n%s\n#undef main\n' % (number, read(unit)))
+    entry = entries[units[0]]
+    folders = dict.fromkeys(os.path.abspath(os.path.dirname(unit)) for unit in units)
+    flags = tidy_flags(entry) + [word for path in folders for word in ('-iquote', path)] + ['-c', source]
+    with open(os.path.join(work, 'compile_commands.json'), 'w') as file:
+        json.dump([{'directory': entry['directory'], 'file': source, 'arguments': flags}], file)
+    try:
+        run('clang-tidy', '--quiet', '--config-file=.clang-tidy', '-p', work, source)
+    except RuntimeError as complaint:
+        # It counts what it holds back in the headers of others.
+        raise RuntimeError(re.sub(r'(?m)^\d+ warnings? generated\.\n', '', str(complaint)))
+
+
 def check_tidy(files, build):
-    """clang-tidy over src; a file that passed is read again only when it, a header or the rules changed."""
+    """clang-tidy over src, in batches; what passed is read again only when it, a header or the rules changed."""
     require('clang-tidy')
     with open(os.path.join(build, 'compile_commands.json')) as file:
-        compiled = {os.path.relpath(entry['file']) for entry in json.load(file)}
+        entries = {os.path.relpath(entry['file']): entry for entry in json.load(file)}
     units = [f for f in files if f.startswith('src/') and f.endswith('.cpp')]
-    not_compiled = [unit for unit in units if unit not in compiled]
+    not_compiled = [unit for unit in units if unit not in entries]
     if not_compiled:
         raise RuntimeError('in src/ but in no target: ' + ' '.join(not_compiled))
     common = hashlib.sha256()
     for name in ['.clang-tidy'] + [f for f in files if f.endswith(('.h', '.msg', '.cfg'))]:
         common.update(read(name))
-    passed = os.path.join(build, 'lint')
-    os.makedirs(passed, exist_ok=True)
+    folder = os.path.join(build, 'lint')
+    os.makedirs(folder, exist_ok=True)
 
-    def tidy(unit):
+    def tidy(batch):
         digest = common.copy()
-        digest.update(unit.encode() + read(unit))
-        stamp = os.path.join(passed, digest.hexdigest())
-        if not os.path.exists(stamp):
-            try:
-                run('clang-tidy', '--quiet', '-p', build, unit)
-            except RuntimeError as complaint:
-                # It counts what it holds back in the headers of others.
-                raise RuntimeError(re.sub(r'(?m)^\d+ warnings? generated\.\n', '', str(complaint)))
-            open(stamp, 'w').close()
+        for unit in batch:
+            digest.update(unit.encode() + read(unit))
+        stamp = os.path.join(folder, digest.hexdigest())
+        if os.path.exists(stamp):
+            return
+        try:
+            run_tidy(batch, entries, folder)
+        except RuntimeError:
+            # Which file is it? None, when they only do not compile as one.
+            found = []
+            for unit in batch:
+                try:
+                    run_tidy([unit], entries, folder)
+                except RuntimeError as complaint:
+                    found.append(str(complaint))
+            if found:
+                raise RuntimeError('\n'.join(found))
+        open(stamp, 'w').close()
 
+    batches = tidy_batches(units, lambda unit: tuple(tidy_flags(entries[unit])), lambda unit: read(unit).decode())
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        results = [pool.submit(tidy, unit) for unit in units]
+        results = [pool.submit(tidy, batch) for batch in batches]
     complaints = [str(result.exception()) for result in results if result.exception() is not None]
     if complaints:
         raise RuntimeError('\n'.join(complaints))

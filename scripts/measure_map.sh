@@ -2,34 +2,20 @@
 # Maps simulated flights with true poses and judges the maps by the true edges: the table "How good a map the tracks give" of
 # docs/vio.md.
 #
-#   scripts/measure_map.sh RESULTS [SECONDS]
+#   scripts/measure_map.sh RESULTS [--tuning] [SEED [SECONDS]]
 #
-# RESULTS: folder for bags and tables; flights that are there are used again. SECONDS: of a flight (40).
+# RESULTS: folder for bags and tables; flights that are there are used again. SEED: of the flights (1001), from 1000 on; below 1000
+# with --tuning. SECONDS: of a flight (40).
 set -euo pipefail
-case ${1:-} in
-  --help | -h | "") sed -n '2,7s/^# \{0,1\}//p' "$0" && exit ;;
-esac
-mkdir -p "$1"
-results=$(cd "$1" && pwd)
-seconds=${2:-40}
-. "$(dirname "$0")/environment.sh"
-scripts/build.sh
-sourceSetup "$build/devel/setup.bash"
-tools=$build/devel/lib/tet_line_tracker
+. "$(dirname "$0")/measuring.sh"
+seed=${arguments[0]:-$(defaultSeeds)}
+seconds=${arguments[1]:-40}
+requireSeeds "$seed"
+prepareTools
 
-# lens NAME SIZE F C MODEL COEFFICIENTS: a calibration file for a square image; its largest circle is the field of view.
-lens() {
-  cat >"$results/$1.yaml" <<END
-image_width: $2
-image_height: $2
-camera_name: $1
-camera_matrix: {rows: 3, cols: 3, data: [$3, 0, $4, 0, $3, $4, 0, 0, 1]}
-distortion_model: $5
-distortion_coefficients: {rows: 1, cols: $(wc -w <<<"${6//,/ }"), data: [$6]}
-END
-}
-lens equidistant 752 226.7 375.5 equidistant "0, 0, 0, 0"  # 190 degrees
-lens mei 700 668.2 349.5 mei "2.2134, 0.0168, 1.6549, 0, 0"  # 185 degrees, as KITTI-360
+# Square images, whose largest circle is the field of view.
+writeLens "$results/equidistant.yaml" 752 752 226.7 375.5 375.5 equidistant "0, 0, 0, 0"               # 190 degrees
+writeLens "$results/mei.yaml" 700 700 668.2 349.5 349.5 mei "2.2134, 0.0168, 1.6549, 0, 0"  # 185 degrees, as KITTI-360
 
 declare -A flights=(
   [slow]="--motion slow" [shake]="--motion shake" [equidistant]="--motion slow --camera-info $results/equidistant.yaml"
@@ -38,16 +24,17 @@ declare -A flights=(
 maps=()
 # map FLIGHT TRACKER: tracks, holds the lines against their rules, and maps.
 map() {
-  local flight=$results/$1.bag name=$1-$2
+  local flight=$results/$1-$seed.bag name=$1-$seed-$2
   # The flight's words are options.
   # shellcheck disable=SC2086
-  [ -e "$flight" ] || "$tools/simulate_bag" "$flight" ${flights[$1]} --seconds "$seconds"
+  simulate "$flight" "$seed" ${flights[$1]} --seconds "$seconds"
   "$tools/track_bag" "$flight" "$results/$name-tracks.bag" --tracker "$2" >"$results/$name.txt"
   "$tools/check_lines" "$results/$name-tracks.bag"
   "$tools/map_bag" "$results/$name-tracks.bag" "$results/$name.bag"
   maps+=("$results/$name.bag")
 }
 {
+  heading maps
   map slow tet
   map slow lk_endpoints
   map slow lsd_lbd_knn

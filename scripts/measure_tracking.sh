@@ -1,25 +1,21 @@
 #!/usr/bin/env bash
 # Judges the trackers on simulated flights of every regime: the tables of docs/benchmarks/tracking.md.
 #
-#   scripts/measure_tracking.sh RESULTS [SEEDS [SECONDS [REGIMES]]]
+#   scripts/measure_tracking.sh RESULTS [--tuning] [SEEDS [SECONDS [REGIMES]]]
 #
-# RESULTS: folder for bags and tables; flights and baselines that are there are used again. SEEDS: one or more in quotes ("1 2"). SECONDS: of a flight (20).
-# REGIMES: only the first table, for these in quotes ("fast corridor").
+# RESULTS: folder for bags and tables; flights and baselines that are there are used again. SEEDS: one or more in quotes (1001),
+# from 1000 on; below 1000 with --tuning. SECONDS: of a flight (20). REGIMES: only the first table, for these in quotes
+# ("fast corridor").
 set -euo pipefail
-case ${1:-} in
-  --help | -h | "") sed -n '2,7s/^# \{0,1\}//p' "$0" && exit ;;
-esac
-mkdir -p "$1"
-results=$(cd "$1" && pwd)
-seeds=${2:-1}
-seconds=${3:-20}
-. "$(dirname "$0")/environment.sh"
+. "$(dirname "$0")/measuring.sh"
 . scripts/regimes.sh
-scripts/build.sh
-sourceSetup "$build/devel/setup.bash"
-tools=$build/devel/lib/tet_line_tracker
-
-regimes=${4:-slow fast corridor low gain shake rotation moving all}
+seeds=${arguments[0]:-$(defaultSeeds)}
+seconds=${arguments[1]:-20}
+regimes=${arguments[2]:-slow fast corridor low gain shake rotation moving all}
+# Seeds and regimes are words.
+# shellcheck disable=SC2086
+requireSeeds $seeds
+prepareTools
 
 # judge NAME REGIMES [track_bag options]: tracks the flights and prints one table.
 judge() {
@@ -31,14 +27,14 @@ judge() {
       flight=$results/$regime-$seed.bag
       # The regime's words are options.
       # shellcheck disable=SC2086
-      [ -e "$flight" ] || "$tools/simulate_bag" "$flight" ${flights[$regime]} --seconds "$seconds" --seed "$seed"
+      simulate "$flight" "$seed" ${flights[$regime]} --seconds "$seconds"
       lines=$results/$regime-$seed-$name.bag
       # Baselines do not change with the package: once is enough.
       [[ $* == *--tracker* && -e $lines ]] || "$tools/track_bag" "$flight" "$lines" --times "$@" >"${lines%.bag}.txt"
       tracked+=("$lines")
     done
   done
-  echo "== $name $*"
+  heading "$name" "$@"
   "$tools/evaluate_tracks" "${tracked[@]}"
 }
 
@@ -46,7 +42,7 @@ judge() {
   judge joint "$regimes"
   judge lk_endpoints "$regimes" --tracker lk_endpoints
   judge lsd_lbd_knn "$regimes" --tracker lsd_lbd_knn
-  [ $# -lt 4 ] || exit 0
+  [ ${#arguments[@]} -lt 3 ] || exit 0
   hard="fast corridor gain shake"
   judge no_prior "$hard" --set prior=none
   judge no_gain_and_offset "$hard" --set gain_and_offset=false

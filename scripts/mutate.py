@@ -60,7 +60,13 @@ def write(path, content):
 
 def copy_source(source):
     """Copies the project; files that did not change keep their time, so that they are not built again."""
+    # roslaunch looks everywhere below a package, and takes no launch file that it finds twice.
+    launch = os.path.join(source, 'launch')
+    shutil.rmtree(launch, ignore_errors=True)
+    os.makedirs(launch)
     for name in lint.project_files():
+        if name.startswith('launch/'):
+            continue
         target = os.path.join(source, name)
         os.makedirs(os.path.dirname(target), exist_ok=True)
         with open(name, 'rb') as file:

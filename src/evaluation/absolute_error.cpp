@@ -167,8 +167,10 @@ bool EdgeJudge::isSeen(const View& view, std::size_t edge, const Eigen::Vector3d
 
 EdgeVerdict EdgeJudge::judge(const TrackedLine& line, const View& view) const {
   const auto ray = [&](const Eigen::Vector2d& normalized, const Eigen::Vector2f& pixel) {
-    if (normalized.allFinite()) return std::optional<Eigen::Vector3d>(normalized.homogeneous());
-    return truth_.camera().unproject(pixel.cast<double>());
+    if (!normalized.allFinite()) return truth_.camera().unproject(pixel.cast<double>());
+    const Eigen::Vector3d on_plane = normalized.homogeneous();
+    // Far out on z = 1 steps along the line are many times longer in the image than near the axis.
+    return std::optional<Eigen::Vector3d>(on_unit_plane_ ? on_plane : on_plane.normalized());
   };
   EdgeVerdict verdict;
   const auto start = ray(line.start_normalized, line.segment.start);

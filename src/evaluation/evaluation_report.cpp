@@ -12,7 +12,7 @@ namespace {
 using Values = std::vector<std::pair<std::string, double>>;
 
 /// Every measure by name; the names are those of the CSV and JSON files.
-Values valuesOf(const TrackMeasures& m) {
+Values valuesOf(const TrackMeasures& m, const ThreeViewMeasures& three_view) {
   Values values{{"images", static_cast<double>(m.images)},
                 {"tracks", static_cast<double>(m.tracks)},
                 {"lines_per_image", m.lines_per_image},
@@ -33,6 +33,7 @@ Values valuesOf(const TrackMeasures& m) {
     values.emplace_back("drift_" + age + "_median_px", m.drift[n]);
     values.emplace_back("drift_" + age + "_p95_px", m.drift_p95[n]);
   }
+  const TripleAgreement agreement = compareJudges(three_view, m.pairs);
   const Values rest{{"clean_length", m.clean_length},
                     {"survival", m.survival},
                     {"sigma_spread", m.sigma_spread},
@@ -43,7 +44,14 @@ Values valuesOf(const TrackMeasures& m) {
                     {"flow_ms", m.flow_ms},
                     {"refine_ms", m.refine_ms},
                     {"detect_ms", m.detect_ms},
-                    {"undistort_ms", m.undistort_ms}};
+                    {"undistort_ms", m.undistort_ms},
+                    {"triples", static_cast<double>(three_view.triples)},
+                    {"three_view_ratio_2px", three_view.inlier_ratio},
+                    {"three_view_ratio_1px", three_view.tight_inlier_ratio},
+                    {"three_view_left_out_ratio", three_view.left_out_ratio},
+                    {"three_view_refuted_ratio", three_view.refuted_ratio},
+                    {"both_judges_three_view_ratio_2px", agreement.three_view_ratio},
+                    {"both_judges_exact_ratio_2px", agreement.exact_ratio}};
   values.insert(values.end(), rest.begin(), rest.end());
   return values;
 }
@@ -170,19 +178,35 @@ void writeText(std::ostream& out, const std::vector<EvaluatedBag>& bags) {
   const auto row = [&](const std::string& name, const std::vector<std::string>& cells) {
     writeRow(out, name, width, cells);
   };
-  row("bag", {"truth", "images", "lines", "px", "cover%", "<2px%", "<1px%", "err", "drift5", "10", "20", "30",
-              "length", "clean", "surv%", "sigma", "ms", "ms p99", "homog%"});
+  row("bag", {"truth",  "images", "lines",  "px",      "cover%",  "<2px%",  "<1px%", "err",
+              "drift5", "10",     "20",     "30",      "length",  "clean",  "surv%", "sigma",
+              "ms",     "ms p99", "homog%", "3v<2px%", "3v<1px%", "3vout%", "3vref%"});
   for (const EvaluatedBag& bag : bags) {
     const TrackMeasures& m = bag.measures;
     const auto& text = cell;
-    row(bag.name,
-        {bag.truth, std::to_string(m.images), text(m.lines_per_image, "%.1f"), text(m.line_length, "%.1f"),
-         text(100.0 * m.coverage, "%.1f"), text(100.0 * m.inlier_ratio, "%.2f"),
-         text(100.0 * m.tight_inlier_ratio, "%.2f"), text(m.median_error, "%.3f"), text(m.drift[0], "%.3f"),
-         text(m.drift[1], "%.3f"), text(m.drift[2], "%.3f"), text(m.drift[3], "%.3f"),
-         text(m.track_length, "%.1f"), text(m.clean_length, "%.1f"), text(100.0 * m.survival, "%.1f"),
-         text(m.sigma_spread, "%.2f"), text(m.ms_mean, "%.2f"), text(m.ms_p99, "%.2f"),
-         text(100.0 * m.homography_ratio, "%.1f")});
+    row(bag.name, {bag.truth,
+                   std::to_string(m.images),
+                   text(m.lines_per_image, "%.1f"),
+                   text(m.line_length, "%.1f"),
+                   text(100.0 * m.coverage, "%.1f"),
+                   text(100.0 * m.inlier_ratio, "%.2f"),
+                   text(100.0 * m.tight_inlier_ratio, "%.2f"),
+                   text(m.median_error, "%.3f"),
+                   text(m.drift[0], "%.3f"),
+                   text(m.drift[1], "%.3f"),
+                   text(m.drift[2], "%.3f"),
+                   text(m.drift[3], "%.3f"),
+                   text(m.track_length, "%.1f"),
+                   text(m.clean_length, "%.1f"),
+                   text(100.0 * m.survival, "%.1f"),
+                   text(m.sigma_spread, "%.2f"),
+                   text(m.ms_mean, "%.2f"),
+                   text(m.ms_p99, "%.2f"),
+                   text(100.0 * m.homography_ratio, "%.1f"),
+                   text(100.0 * bag.three_view.inlier_ratio, "%.2f"),
+                   text(100.0 * bag.three_view.tight_inlier_ratio, "%.2f"),
+                   text(100.0 * bag.three_view.left_out_ratio, "%.2f"),
+                   text(100.0 * bag.three_view.refuted_ratio, "%.2f")});
   }
 }
 
@@ -213,14 +237,15 @@ void writeCsv(std::ostream& out, const std::vector<EvaluatedBag>& bags) {
   const bool absolute =
       std::any_of(bags.begin(), bags.end(), [](const EvaluatedBag& bag) { return bag.absolute.has_value(); });
   out << "bag,truth";
-  for (const auto& value : valuesOf({})) out << "," << value.first;
+  for (const auto& value : valuesOf({}, {})) out << "," << value.first;
   if (absolute) {
     for (const auto& value : absoluteValuesOf({})) out << "," << value.first;
   }
   out << "\n";
   for (const EvaluatedBag& bag : bags) {
     out << quoted(bag.name) << "," << bag.truth;
-    for (const auto& value : valuesOf(bag.measures)) out << "," << number(value.second, "%.9g", "");
+    for (const auto& value : valuesOf(bag.measures, bag.three_view))
+      out << "," << number(value.second, "%.9g", "");
     if (absolute) {
       for (const auto& value : absoluteValuesOf(bag.absolute.value_or(AbsoluteMeasures()))) {
         out << "," << (bag.absolute ? number(value.second, "%.9g", "") : "");
@@ -234,7 +259,7 @@ void writeJson(std::ostream& out, const std::vector<EvaluatedBag>& bags, bool wi
   writeArray(out, bags, [&](const EvaluatedBag& bag) {
     const TrackMeasures& m = bag.measures;
     out << "{\"bag\": " << quoted(bag.name) << ", \"truth\": " << quoted(bag.truth);
-    for (const auto& [name, value] : valuesOf(m)) {
+    for (const auto& [name, value] : valuesOf(m, bag.three_view)) {
       out << ",\n  " << quoted(name) << ": " << number(value, "%.9g", "null");
     }
     if (bag.absolute) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "absolute_error.h"
+#include "three_view_error.h"
 #include "track_measures.h"
 
 namespace tet_line_tracker {
@@ -13,9 +14,10 @@ namespace tet_line_tracker {
 /// The measures of one bag with its name.
 struct EvaluatedBag {
   std::string name;
-  std::string truth;  ///< "scene", "depth" or "none"
+  std::string truth;  ///< "scene", "depth", "poses" or "none"
   TrackMeasures measures;
   std::optional<AbsoluteMeasures> absolute{};  ///< when asked for, and the truth is a scene
+  ThreeViewMeasures three_view{};              ///< where poses are known
 };
 
 /// One row per bag, for people.

@@ -9,18 +9,13 @@
 
 #include "geometry/coverage_grid.h"
 #include "homography_consensus.h"
+#include "line_tracks.h"
 #include "track_judge.h"
 
 namespace tet_line_tracker {
 namespace {
 
 constexpr std::array<std::size_t, 4> kAges = TrackMeasures::kDriftAges;
-
-/// One id of one epoch: the same line in consecutive images.
-struct Track {
-  std::size_t first_frame{0};
-  std::vector<const TrackedLine*> lines;
-};
 
 /// What the truth says of one track.
 struct TrackVerdict {
@@ -30,27 +25,7 @@ struct TrackVerdict {
   std::size_t clean_length{1};
 };
 
-std::vector<Track> collectTracks(const std::vector<LineFrame>& frames) {
-  std::vector<Track> tracks;
-  std::unordered_map<std::uint64_t, std::size_t> track_of_id;
-  for (std::size_t k = 0; k < frames.size(); ++k) {
-    if (k > 0 && frames[k].epoch != frames[k - 1].epoch) track_of_id.clear();
-    for (const TrackedLine& line : frames[k].lines) {
-      const auto found = track_of_id.find(line.id);
-      // An id that was away is a new track here; check_lines reports it.
-      if (found == track_of_id.end() ||
-          tracks[found->second].first_frame + tracks[found->second].lines.size() != k) {
-        track_of_id[line.id] = tracks.size();
-        tracks.push_back({k, {&line}});
-      } else {
-        tracks[found->second].lines.push_back(&line);
-      }
-    }
-  }
-  return tracks;
-}
-
-TrackVerdict judge(const Track& track, const std::vector<LineFrame>& frames, const Truth& truth,
+TrackVerdict judge(const LineTrack& track, const std::vector<LineFrame>& frames, const Truth& truth,
                    const MeasureOptions& options) {
   TrackVerdict verdict;
   const std::size_t count = track.lines.size();
@@ -103,7 +78,7 @@ double shareOf(std::size_t part, std::size_t whole) {
   return whole == 0 ? TrackMeasures::kUnknown : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-void measureWithTruth(const std::vector<Track>& tracks, const std::vector<LineFrame>& frames,
+void measureWithTruth(const std::vector<LineTrack>& tracks, const std::vector<LineFrame>& frames,
                       const Truth& truth, const MeasureOptions& options, TrackMeasures& measures) {
   std::vector<TrackVerdict> verdicts(tracks.size());
   cv::parallel_for_(cv::Range(0, static_cast<int>(tracks.size())), [&](const cv::Range& range) {
@@ -172,8 +147,8 @@ void measureWithTruth(const std::vector<Track>& tracks, const std::vector<LineFr
 }
 
 /// Adds the homography's verdict to the pairs, which come in any order.
-void measureByHomography(const std::vector<Track>& tracks, std::size_t images, const MeasureOptions& options,
-                         TrackMeasures& measures) {
+void measureByHomography(const std::vector<LineTrack>& tracks, std::size_t images,
+                         const MeasureOptions& options, TrackMeasures& measures) {
   struct ImagePair {
     std::vector<LineMatch> matches;
     std::vector<std::uint64_t> ids;
@@ -181,7 +156,7 @@ void measureByHomography(const std::vector<Track>& tracks, std::size_t images, c
   };
   if (images < 2) return;
   std::vector<ImagePair> image_pairs(images - 1);
-  for (const Track& track : tracks) {
+  for (const LineTrack& track : tracks) {
     for (std::size_t i = 1; i < track.lines.size(); ++i) {
       ImagePair& pair = image_pairs[track.first_frame + i - 1];
       pair.matches.push_back({track.lines[i - 1]->segment, track.lines[i]->segment});
@@ -248,9 +223,9 @@ void measureTimes(const std::vector<LineFrame>& frames, TrackMeasures& measures)
 
 }  // namespace
 
-double gridCoverage(const LineFrame& frame) {
+double gridCoverage(const LineFrame& frame, const LensBend& lens) {
   CoverageGrid grid(frame.width, frame.height);
-  for (const TrackedLine& line : frame.lines) grid.add(line.segment);
+  for (const TrackedLine& line : frame.lines) grid.add(lens.curve(line.segment));
   return static_cast<double>(grid.coverage());
 }
 
@@ -259,9 +234,14 @@ TrackMeasures measureTracks(const std::vector<LineFrame>& frames, bool has_stati
   TrackMeasures measures;
   measures.images = frames.size();
   if (frames.empty()) return measures;
-  const std::vector<Track> tracks = collectTracks(frames);
+  const std::vector<LineTrack> tracks = collectTracks(frames);
   measures.tracks = tracks.size();
 
+  LensBend lens;
+  if (truth != nullptr) {
+    const std::shared_ptr<const CameraModel> not_owned(std::shared_ptr<void>(), &truth->camera());
+    lens = LensBend(not_owned, frames.front().width, frames.front().height);
+  }
   std::vector<double> coverages;
   std::size_t lines = 0;
   double lengths = 0.0;
@@ -272,7 +252,7 @@ TrackMeasures measureTracks(const std::vector<LineFrame>& frames, bool has_stati
     detections += frame.detected ? 1 : 0;
     measures.lines.push_back(frame.lines.size());
     measures.seconds.push_back(1e-9 * static_cast<double>(frame.stamp_ns - frames.front().stamp_ns));
-    coverages.push_back(gridCoverage(frame));
+    coverages.push_back(gridCoverage(frame, lens));
   }
   measures.lines_per_image = shareOf(lines, frames.size());
   if (lines > 0) measures.line_length = lengths / static_cast<double>(lines);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "tet_line_tracker/camera/lens_bend.h"
 #include "tet_line_tracker/tracking/line_frame.h"
 #include "truth.h"
 
@@ -77,7 +78,7 @@ struct TrackMeasures {
 TrackMeasures measureTracks(const std::vector<LineFrame>& frames, bool has_statistics, const Truth* truth,
                             const MeasureOptions& options = {});
 
-/// Share of an 8x6 grid over the image that is crossed by a line of the frame, 0..1.
-double gridCoverage(const LineFrame& frame);
+/// Share of an 8x6 grid over the image that is crossed by a line of the frame, which `lens` may bend, 0..1.
+double gridCoverage(const LineFrame& frame, const LensBend& lens = {});
 
 }  // namespace tet_line_tracker

@@ -29,8 +29,8 @@ UndistortedLine::UndistortedLine(const CameraModel& camera, const TrackedLine& l
     : camera_(camera),
       chord_(line.segment),
       has_rays_(line.start_normalized.allFinite() && line.end_normalized.allFinite()),
-      start_(line.start_normalized.homogeneous()),
-      end_(line.end_normalized.homogeneous()),
+      start_(line.start_normalized.homogeneous().normalized()),
+      end_(line.end_normalized.homogeneous().normalized()),
       normal_(start_.cross(end_).normalized()) {}
 
 std::optional<UndistortedLine::Sample> UndistortedLine::at(double fraction) const {

@@ -35,7 +35,7 @@ class UndistortedLine {
   const CameraModel& camera_;
   LineSegment chord_;
   bool has_rays_;
-  Eigen::Vector3d start_, end_;  // on z = 1
+  Eigen::Vector3d start_, end_;  ///< unit rays
   Eigen::Vector3d normal_;       // of the plane of both
 };
 

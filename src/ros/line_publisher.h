@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include <image_transport/image_transport.h>
 #include <ros/ros.h>
@@ -16,11 +19,14 @@
 namespace tet_line_tracker {
 
 /// Publishes the lines of an image, and while somebody listens the picture, the markers and the statistics of
-/// them. publish() is for one thread; the rest may be called from any.
+/// them. publish() and setCamera() are for one thread; the rest may be called from any.
 class LinePublisher {
  public:
   /// Advertises below `node`.
   LinePublisher(ros::NodeHandle& node, const NodeParameters& parameters);
+
+  /// The picture shows lines as this camera bends them; nullptr: straight.
+  void setCamera(std::shared_ptr<const CameraModel> camera) { painter_.setCamera(std::move(camera)); }
 
   /// `gray`: the image of `frame`; `replaced`: images that gave way to newer ones since the node began. False
   /// when publish_rate leaves this image out.

@@ -160,7 +160,7 @@ void LineTrackerNodelet::track(const sensor_msgs::Image& image) {
   tracker_->setCamera(model.camera);
   if (const auto rotation = imu_extrinsic_.rotation()) {
     tracker_->setImuRotation(*rotation);
-    imu_.feed(stamp_ns, *tracker_);
+    imu_.feed(tracker_->imuStamp(stamp_ns), *tracker_);
   }
   const FrameResult result = tracker_->process(gray, stamp_ns);
   if (isDropped(result.verdict)) {
@@ -173,13 +173,14 @@ void LineTrackerNodelet::track(const sensor_msgs::Image& image) {
   }
   epoch_ = frame.epoch;
   diagnostics_.addTracked(frame, frame.statistics.total_ms);
+  publisher_->setCamera(model.camera);
   if (publisher_->publish(frame, image.header.frame_id, gray, replaced)) diagnostics_.addPublished();
 }
 
 /// Without tracker_mutex_, so that a reset need not wait with the image. An image that would cost another one
 /// its place in the queue does not wait.
 void LineTrackerNodelet::awaitImu(const std_msgs::Header& image) {
-  const auto stamp_ns = static_cast<std::int64_t>(image.stamp.toNSec());
+  const std::int64_t stamp_ns = tracker_->imuStamp(static_cast<std::int64_t>(image.stamp.toNSec()));
   if (!imu_.frame() && imu_subscriber_.getNumPublishers() == 0) return;
   const auto crowded = [this] { return queue_->isFull(); };
   if (imu_extrinsic_.isHopeful() && !imu_.waitFor(stamp_ns, parameters_.imu_wait, crowded)) {

@@ -12,7 +12,8 @@
 namespace tet_line_tracker {
 
 /// Lines as rviz markers on the plane z = 1 of the camera's optical frame, coloured by age: namespace
-/// "lines", and "ids" for the texts. Lines without normalised endpoints have no marker.
+/// "lines", and "ids" for the texts. There a line is straight whatever the lens, so the straight marker lies
+/// on the edge all along. Lines without normalised endpoints have no marker.
 class MarkerBuilder {
  public:
   explicit MarkerBuilder(bool ids) : ids_(ids) {}

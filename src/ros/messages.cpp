@@ -95,10 +95,14 @@ TrackingStatistics toTrackingStatistics(const LineFrame& frame, const std::strin
   message.lost_short = from.lostFor(LossReason::kShort);
   message.lost_field_of_view = from.lostFor(LossReason::kFieldOfView);
   message.lost_mask = from.lostFor(LossReason::kMask);
+  message.lost_depth = from.lostFor(LossReason::kDepth);
   message.lost_edge_jump = from.lostFor(LossReason::kEdgeJump);
   message.lost_duplicate = from.lostFor(LossReason::kDuplicate);
   message.prior = from.prior;
   message.prior_rotation = from.prior_rotation;
+  message.imu_time_offset = static_cast<float>(from.imu_time_offset);
+  std::copy(from.translation.begin(), from.translation.end(), message.translation.begin());
+  message.translation_inliers = from.translation_inliers;
   message.dropped_late = from.dropped_late;
   message.dropped_duplicate = from.dropped_duplicate;
   message.dropped_zero = from.dropped_zero;

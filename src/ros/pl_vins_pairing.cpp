@@ -39,7 +39,7 @@ ParameterTable tableOf(PlVinsParameters& p) {
   table.add("frequency", p.frequency, 0.1, 1000.0, "Hz", "freq of PL-VINS's configuration, for its gate");
   table.add("max_lines", p.max_lines, 0, 1000, "", "Lines in a message at most, the oldest tracks first");
   table.add("extra_channels", p.extra_channels,
-            "Pixel endpoints, age and sigma as further channels, which PL-VINS does not read");
+            "Pixel endpoints, age, uncertainty and cut as further channels, which PL-VINS does not read");
   return table;
 }
 
@@ -122,7 +122,8 @@ sensor_msgs::PointCloudPtr PlVinsPairing::toPointCloud(const ros::Time& stamp, c
     cloud->channels.back().name = name;
   }
   if (parameters_.extra_channels) {
-    for (const char* name : {"start_px_x", "start_px_y", "end_px_x", "end_px_y", "age", "sigma_px"}) {
+    for (const char* name : {"start_px_x", "start_px_y", "end_px_x", "end_px_y", "age", "sigma_px",
+                             "var_start_px2", "cov_px2", "var_end_px2", "cut"}) {
       cloud->channels.emplace_back();
       cloud->channels.back().name = name;
     }
@@ -163,7 +164,11 @@ sensor_msgs::PointCloudPtr PlVinsPairing::toPointCloud(const ros::Time& stamp, c
                             line.end_px[0],
                             line.end_px[1],
                             static_cast<float>(line.age),
-                            line.sigma_px};
+                            line.sigma_px,
+                            line.covariance_px[0],
+                            line.covariance_px[1],
+                            line.covariance_px[2],
+                            static_cast<float>(line.cut)};
     for (std::size_t c = 0; c < cloud->channels.size(); ++c) cloud->channels[c].values.push_back(values[c]);
   }
   return cloud;

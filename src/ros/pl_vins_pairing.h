@@ -26,7 +26,7 @@ struct PlVinsParameters {
   double max_wait{0.2};    ///< a point message waits this long for late lines, by the wall clock, 0..60 [s]
   double frequency{10.0};  ///< of the gate, 0.1..1000 [Hz]
   int max_lines{150};      ///< in a message, oldest tracks first, 0..1000 (PL-VINS has room for 1000)
-  bool extra_channels{false};  ///< pixels, age and sigma after the three channels that are read
+  bool extra_channels{false};  ///< pixels, age and uncertainty after the three channels that are read
 };
 
 /// Entries bound to the fields of `parameters`, which must outlive the table.

@@ -10,9 +10,38 @@ namespace {
 
 constexpr std::array<const char*, static_cast<std::size_t>(DropReason::kCount)> kDropNames{
     "queue", "late stamp", "duplicate stamp", "zero stamp", "unreadable"};
-constexpr std::array<const char*, static_cast<std::size_t>(LossReason::kCount)> kLossNames{
-    "flow",  "residual",      "length ratio", "angle",     "support",  "border",
-    "short", "field of view", "mask",         "edge jump", "duplicate"};
+/// A switch, so that the compiler tells of a reason without a name.
+const char* nameOf(LossReason reason) {
+  switch (reason) {
+    case LossReason::kFlow:
+      return "flow";
+    case LossReason::kResidual:
+      return "residual";
+    case LossReason::kLengthRatio:
+      return "length ratio";
+    case LossReason::kAngle:
+      return "angle";
+    case LossReason::kSupport:
+      return "support";
+    case LossReason::kBorder:
+      return "border";
+    case LossReason::kShort:
+      return "short";
+    case LossReason::kFieldOfView:
+      return "field of view";
+    case LossReason::kMask:
+      return "mask";
+    case LossReason::kDepth:
+      return "depth";
+    case LossReason::kEdgeJump:
+      return "edge jump";
+    case LossReason::kDuplicate:
+      return "duplicate";
+    case LossReason::kCount:
+      break;
+  }
+  return "";
+}
 
 double seconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
@@ -46,6 +75,7 @@ void StreamDiagnostics::addTracked(const LineFrame& frame, double milliseconds) 
   lines_cut_ += frame.statistics.lines_cut;
   lines_left_out_ += frame.statistics.lines_left_out;
   for (std::size_t i = 0; i < lines_lost_.size(); ++i) lines_lost_[i] += frame.statistics.lost[i];
+  imu_time_offset_s_ = frame.statistics.imu_time_offset;
   epoch_ = frame.epoch;
   width_ = frame.width;
   height_ = frame.height;
@@ -89,6 +119,7 @@ void StreamDiagnostics::report(const Setup& setup, diagnostic_updater::Diagnosti
   status.add("image size", std::to_string(width_) + "x" + std::to_string(height_));
   status.add("calibration", setup.calibration);
   status.add("imu", setup.imu);
+  status.addf("imu time offset [s]", "%.4f", imu_time_offset_s_);
   status.add("detector", setup.detector);
   status.add("epoch", epoch_);
   status.addf("images in [Hz]", "%.2f", static_cast<double>(interval.received) / duration);
@@ -109,7 +140,7 @@ void StreamDiagnostics::report(const Setup& setup, diagnostic_updater::Diagnosti
   status.add("lines cut to the field of view", lines_cut_);
   status.add("lines left out of the field of view", lines_left_out_);
   for (std::size_t i = 0; i < lines_lost_.size(); ++i) {
-    status.add(std::string("lines lost: ") + kLossNames[i], lines_lost_[i]);
+    status.add(std::string("lines lost: ") + nameOf(static_cast<LossReason>(i)), lines_lost_[i]);
   }
 }
 

@@ -79,6 +79,7 @@ class StreamDiagnostics {
   std::array<std::uint64_t, static_cast<std::size_t>(LossReason::kCount)> lines_lost_{};
   Drops dropped_{};
   std::size_t lines_live_{0};
+  double imu_time_offset_s_{0.0};
   std::uint32_t epoch_{0};
   int width_{0}, height_{0};
 };

@@ -12,6 +12,7 @@ struct LightOptions {
   bool low{false};         ///< mean gray about 15, exposure four times longer
   bool gain_jumps{false};  ///< factor of 0.6 to 1.2 from image to image
   bool drift{false};       ///< slow auto-exposure
+  bool daylight{false};    ///< outdoors: exposure of 2 ms, as KITTI's cameras
 };
 
 /// Reads "normal" or a comma-separated list of low, gain_jumps, drift. Throws std::invalid_argument for
@@ -23,7 +24,7 @@ class LightSchedule {
  public:
   LightSchedule(const LightOptions& options, std::uint64_t seed);
 
-  double exposureSeconds() const { return options_.low ? 0.020 : 0.005; }
+  double exposureSeconds() const { return (options_.daylight ? 0.002 : 0.005) * (options_.low ? 4.0 : 1.0); }
   double meanGray() const { return options_.low ? 15.0 : 105.0; }
   /// Gain of the next image, taken at `time_s`. Jumps stay within 0.5 to 1.1, so that no image drowns or
   /// saturates.

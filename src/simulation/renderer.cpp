@@ -11,6 +11,7 @@ namespace tet_line_tracker {
 namespace {
 
 constexpr int kTileSide = 16;
+constexpr int kBlockSide = 8 * kTileSide;
 constexpr int kMostOutlineSamples = 34;
 constexpr int kNothing = -1;
 
@@ -50,16 +51,26 @@ Renderer::Renderer(std::shared_ptr<const CameraModel> camera, const World& world
   }
   makeTiles();
   makeRays(*camera_);
-  boundTiles();
+  parallelTiles([&](std::size_t number) { bound(tiles_[number]); });
+  parallel(blocks_.size(), [&](std::size_t number) { bound(blocks_[number]); });
   surface_.create(size_);
 }
 
 void Renderer::makeTiles() {
-  for (int y = 0; y < size_.height; y += kTileSide) {
-    for (int x = 0; x < size_.width; x += kTileSide) {
-      tiles_.emplace_back();
-      tiles_.back().pixels = cv::Rect(x, y, kTileSide, kTileSide) & cv::Rect(cv::Point(), size_);
+  const auto split = [&](int side, std::vector<Tile>& tiles) {
+    for (int y = 0; y < size_.height; y += side) {
+      for (int x = 0; x < size_.width; x += side) {
+        tiles.emplace_back();
+        tiles.back().pixels = cv::Rect(x, y, side, side) & cv::Rect(cv::Point(), size_);
+      }
     }
+  };
+  split(kTileSide, tiles_);
+  split(kBlockSide, blocks_);
+  const int blocks_per_row = (size_.width + kBlockSide - 1) / kBlockSide;
+  for (const Tile& tile : tiles_) {
+    block_of_.push_back(
+        static_cast<std::size_t>(tile.pixels.y / kBlockSide * blocks_per_row + tile.pixels.x / kBlockSide));
   }
 }
 
@@ -94,43 +105,40 @@ void Renderer::makeRays(const CameraModel& camera) {
   });
 }
 
-void Renderer::boundTiles() {
-  parallelTiles([&](std::size_t number) {
-    Tile& tile = tiles_[number];
-    const cv::Rect& area = tile.pixels;
-    tile.middle = rayAt(area.x + area.width / 2, area.y + area.height / 2).ray;
-    if (area.width < 2 || area.height < 2) return;
-    const int right = area.x + area.width - 1;
-    const int bottom = area.y + area.height - 1;
-    const std::array<Eigen::Vector3d, 4> corners{
-        rayAt(area.x, area.y).ray.cast<double>(), rayAt(right, area.y).ray.cast<double>(),
-        rayAt(right, bottom).ray.cast<double>(), rayAt(area.x, bottom).ray.cast<double>()};
-    bool complete = true;
-    for (std::size_t side = 0; side < 4; ++side) {
-      Eigen::Vector3d normal = corners[side].cross(corners[(side + 1) % 4]).normalized();
-      if (normal.dot(tile.middle.cast<double>()) < 0.0) normal = -normal;
-      double lowest = 0.0;
-      for (int y = area.y; y <= bottom; ++y) {
-        for (int x = area.x; x <= right; ++x) {
-          const PixelRay& pixel = rayAt(x, y);
-          complete = complete && pixel.ray.allFinite();
-          const double half_pixel = 0.5 * static_cast<double>(pixel.per_x.norm() + pixel.per_y.norm());
-          lowest = std::min(lowest, normal.dot(pixel.ray.cast<double>()) - half_pixel);
-        }
+void Renderer::bound(Tile& tile) const {
+  const cv::Rect& area = tile.pixels;
+  tile.middle = rayAt(area.x + area.width / 2, area.y + area.height / 2).ray;
+  if (area.width < 2 || area.height < 2) return;
+  const int right = area.x + area.width - 1;
+  const int bottom = area.y + area.height - 1;
+  const std::array<Eigen::Vector3d, 4> corners{
+      rayAt(area.x, area.y).ray.cast<double>(), rayAt(right, area.y).ray.cast<double>(),
+      rayAt(right, bottom).ray.cast<double>(), rayAt(area.x, bottom).ray.cast<double>()};
+  bool complete = true;
+  for (std::size_t side = 0; side < 4; ++side) {
+    Eigen::Vector3d normal = corners[side].cross(corners[(side + 1) % 4]).normalized();
+    if (normal.dot(tile.middle.cast<double>()) < 0.0) normal = -normal;
+    double lowest = 0.0;
+    for (int y = area.y; y <= bottom; ++y) {
+      for (int x = area.x; x <= right; ++x) {
+        const PixelRay& pixel = rayAt(x, y);
+        complete = complete && pixel.ray.allFinite();
+        const double half_pixel = 0.5 * static_cast<double>(pixel.per_x.norm() + pixel.per_y.norm());
+        lowest = std::min(lowest, normal.dot(pixel.ray.cast<double>()) - half_pixel);
       }
-      tile.normals[side] = normal;
-      tile.slacks[side] = lowest;
     }
-    tile.bounded = complete;
-  });
+    tile.normals[side] = normal;
+    tile.slacks[side] = lowest;
+  }
+  tile.bounded = complete;
 }
 
-void Renderer::parallelTiles(const std::function<void(std::size_t)>& body) const {
+void Renderer::parallel(std::size_t count, const std::function<void(std::size_t)>& body) const {
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
     constexpr std::size_t kRun = 8;
-    for (std::size_t first = next.fetch_add(kRun); first < tiles_.size(); first = next.fetch_add(kRun)) {
-      for (std::size_t i = first; i < std::min(first + kRun, tiles_.size()); ++i) body(i);
+    for (std::size_t first = next.fetch_add(kRun); first < count; first = next.fetch_add(kRun)) {
+      for (std::size_t i = first; i < std::min(first + kRun, count); ++i) body(i);
     }
   };
   std::vector<std::thread> helpers;
@@ -169,24 +177,32 @@ std::vector<Renderer::SeenRectangle> Renderer::see(const View& view) const {
     seen.height = static_cast<float>(r.height);
     seen.corners = {origin, origin + r.width * u_axis, origin + r.width * u_axis + r.height * v_axis,
                     origin + r.height * v_axis};
+    for (std::size_t k = 0; k < 4; ++k) seen.distances[k] = seen.corners[k].norm();
     all.push_back(seen);
   }
   return all;
 }
 
-std::vector<const Renderer::SeenRectangle*> Renderer::candidates(
-    const Tile& tile, const std::vector<SeenRectangle>& seen) const {
+std::vector<const Renderer::SeenRectangle*> Renderer::within(const Tile& tile,
+                                                             const std::vector<const SeenRectangle*>& seen) {
   std::vector<const SeenRectangle*> result;
-  for (const SeenRectangle& rectangle : seen) {
+  for (const SeenRectangle* rectangle : seen) {
     bool outside = false;
     for (std::size_t side = 0; tile.bounded && !outside && side < 4; ++side) {
       // The points beyond a shifted plane form a convex cone: with all corners the whole rectangle is in it.
-      outside = std::all_of(
-          rectangle.corners.begin(), rectangle.corners.end(),
-          [&](const Eigen::Vector3d& p) { return tile.normals[side].dot(p) < tile.slacks[side] * p.norm(); });
+      outside = true;
+      for (std::size_t k = 0; outside && k < 4; ++k) {
+        outside = tile.normals[side].dot(rectangle->corners[k]) < tile.slacks[side] * rectangle->distances[k];
+      }
     }
-    if (!outside) result.push_back(&rectangle);
+    if (!outside) result.push_back(rectangle);
   }
+  return result;
+}
+
+std::vector<const Renderer::SeenRectangle*> Renderer::candidates(
+    const Tile& tile, const std::vector<const SeenRectangle*>& seen) {
+  std::vector<const SeenRectangle*> result = within(tile, seen);
   // Nearest first, so that the others need no more than a look at their depth.
   std::stable_sort(result.begin(), result.end(), [&](const SeenRectangle* a, const SeenRectangle* b) {
     return a->inverse_depth.dot(tile.middle) > b->inverse_depth.dot(tile.middle);
@@ -274,7 +290,12 @@ cv::Mat Renderer::render(const std::vector<View>& views) {
   cv::Mat_<float> radiance(size_, 0.0F);
   const float share = 1.0F / static_cast<float>(views.size());
   for (const View& view : views) {
-    const std::vector<SeenRectangle> seen = see(view);
+    const std::vector<SeenRectangle> rectangles = see(view);
+    std::vector<const SeenRectangle*> seen;
+    seen.reserve(rectangles.size());
+    for (const SeenRectangle& rectangle : rectangles) seen.push_back(&rectangle);
+    std::vector<std::vector<const SeenRectangle*>> block_candidates(blocks_.size());
+    parallel(blocks_.size(), [&](std::size_t i) { block_candidates[i] = within(blocks_[i], seen); });
     std::vector<std::vector<const SeenRectangle*>> tile_candidates(tiles_.size());
     const auto forEachPixel = [&](std::size_t number, const auto& body) {
       const cv::Rect& area = tiles_[number].pixels;
@@ -283,7 +304,7 @@ cv::Mat Renderer::render(const std::vector<View>& views) {
       }
     };
     parallelTiles([&](std::size_t number) {
-      tile_candidates[number] = candidates(tiles_[number], seen);
+      tile_candidates[number] = candidates(tiles_[number], block_candidates[block_of_[number]]);
       const auto& near = tile_candidates[number];
       forEachPixel(number, [&](int x, int y, const PixelRay& pixel) {
         const int candidate = nearest(near, pixel.ray);

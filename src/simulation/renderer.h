@@ -54,6 +54,7 @@ class Renderer {
     float u, v;  // of the camera's foot on the plane
     float width, height;
     std::array<Eigen::Vector3d, 4> corners;
+    std::array<double, 4> distances;  // of the corners
   };
 
   const PixelRay& rayAt(int x, int y) const {
@@ -62,11 +63,16 @@ class Renderer {
   }
   void makeRays(const CameraModel& camera);
   void makeTiles();
-  void boundTiles();
-  void parallelTiles(const std::function<void(std::size_t)>& body) const;
+  void bound(Tile& tile) const;
+  void parallelTiles(const std::function<void(std::size_t)>& body) const { parallel(tiles_.size(), body); }
+  void parallel(std::size_t count, const std::function<void(std::size_t)>& body) const;
   std::vector<SeenRectangle> see(const View& view) const;
-  std::vector<const SeenRectangle*> candidates(const Tile& tile,
-                                               const std::vector<SeenRectangle>& seen) const;
+  /// Those that a tile may see.
+  static std::vector<const SeenRectangle*> within(const Tile& tile,
+                                                  const std::vector<const SeenRectangle*>& seen);
+  /// The same, nearest first.
+  static std::vector<const SeenRectangle*> candidates(const Tile& tile,
+                                                      const std::vector<const SeenRectangle*>& seen);
   /// Position in `candidates` of the nearest one, -1: none.
   static int nearest(const std::vector<const SeenRectangle*>& candidates, const Eigen::Vector3f& ray);
   float shade(const SeenRectangle& seen, const Eigen::Vector3f& ray, const PixelRay& pixel) const;
@@ -80,7 +86,9 @@ class Renderer {
   cv::Size size_;
   std::vector<PixelRay> rays_;
   std::vector<Tile> tiles_;
-  cv::Mat_<std::int32_t> surface_;  // nearest at each pixel's centre
+  std::vector<Tile> blocks_;           // of many tiles, to leave out at once what none of them sees
+  std::vector<std::size_t> block_of_;  // of each tile
+  cv::Mat_<std::int32_t> surface_;     // nearest at each pixel's centre
 };
 
 }  // namespace tet_line_tracker

@@ -8,15 +8,27 @@
 namespace tet_line_tracker {
 namespace {
 
+LightOptions lightOptions(const SimulationOptions& options) {
+  LightOptions light = parseLight(options.light);
+  light.daylight = options.scene == "street";
+  return light;
+}
+
 SimulationOptions completed(SimulationOptions options) {
   if (!(options.seconds > 0.0 && options.seconds <= 600.0)) {
     throw std::invalid_argument("seconds is " + std::to_string(options.seconds) + ", needs 0..600");
   }
-  if (options.scene.empty()) options.scene = options.motion == "corridor" ? "corridor" : "room";
+  if (options.scene.empty()) {
+    options.scene = options.motion == "corridor" ? "corridor" : options.motion == "drive" ? "street" : "room";
+  }
   if (options.motion == "corridor" && options.scene != "corridor") {
     throw std::invalid_argument("motion corridor needs scene corridor, not \"" + options.scene + "\"");
   }
-  const double highest_rate = 1.0 / LightSchedule(parseLight(options.light), 0).exposureSeconds();
+  if ((options.motion == "drive") != (options.scene == "street")) {
+    throw std::invalid_argument("motion drive and scene street go together, motion is \"" + options.motion +
+                                "\", scene \"" + options.scene + "\"");
+  }
+  const double highest_rate = 1.0 / LightSchedule(lightOptions(options), 0).exposureSeconds();
   if (!(options.rate_hz > 0.0 && options.rate_hz <= highest_rate)) {
     throw std::invalid_argument("rate is " + std::to_string(options.rate_hz) + " Hz, needs 0.." +
                                 std::to_string(static_cast<int>(highest_rate)) +
@@ -32,6 +44,8 @@ WorldOptions worldOptions(const SimulationOptions& options) {
   constexpr double kFreeWayAhead = 9.0;  // left at the end of the flight [m]
   world.corridor_length =
       Trajectory::kFlightStart + Trajectory::kFlightSpeed * options.seconds + kFreeWayAhead;
+  constexpr double kStreetBeyond = 150.0;  // before the start and beyond the end of the drive [m]
+  world.street_length = Trajectory::kDriveSpeed * options.seconds + kStreetBeyond;
   world.bare_wall = options.textureless_phase;
   world.moving_object = options.moving_object;
   world.motion_origin_ns = options.first_stamp_ns;
@@ -72,6 +86,18 @@ CameraCalibration defaultSimulatedCamera() {
   return camera;
 }
 
+CameraCalibration streetCamera() {
+  CameraCalibration camera;
+  camera.model = "plumb_bob";
+  camera.width = 1241;
+  camera.height = 376;
+  camera.fx = 718.856;
+  camera.fy = 718.856;
+  camera.cx = 607.1928;
+  camera.cy = 185.2157;
+  return camera;
+}
+
 Eigen::Isometry3d defaultCameraFromImu() {
   Eigen::Matrix3d imu_from_camera;
   imu_from_camera << 0.0148655429818, -0.999880929698, 0.00414029679422,  //
@@ -89,7 +115,7 @@ Simulation::Simulation(const SimulationOptions& options, std::shared_ptr<const C
       world_(makeWorld(worldOptions(options_))),
       trajectory_(trajectoryOptions(options_, world_)),
       renderer_(camera_, world_, options_.threads),
-      light_(parseLight(options_.light), options_.seed),
+      light_(lightOptions(options_), options_.seed),
       brightness_(light_.meanGray() / meanRadiance()) {
   const auto onOff = [](bool on) { return on ? "yes" : "no"; };
   SceneGeometry& geometry = world_.geometry;

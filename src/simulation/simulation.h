@@ -19,8 +19,8 @@
 namespace tet_line_tracker {
 
 struct SimulationOptions {
-  std::string motion{"slow"};   ///< slow, fast, corridor, shake, rotation, still
-  std::string scene;            ///< room, corridor, empty; empty string: corridor for that motion, else room
+  std::string motion{"slow"};   ///< slow, fast, corridor, shake, rotation, still, drive
+  std::string scene;            ///< room, corridor, empty, street; empty string: what suits the motion
   std::string light{"normal"};  ///< normal, or a list of low, gain_jumps, drift
   double seconds{20.0};         ///< from the first image to the last, above 0 [s]
   double rate_hz{20.0};         ///< images per second, above 0, at most 1 / exposure [Hz]
@@ -33,6 +33,8 @@ struct SimulationOptions {
 
 /// Camera of EuRoC's cam0.
 CameraCalibration defaultSimulatedCamera();
+/// Left gray camera of KITTI's first odometry sequences, rectified: that of the street.
+CameraCalibration streetCamera();
 /// Pose of the IMU in the camera, as in EuRoC.
 Eigen::Isometry3d defaultCameraFromImu();
 

@@ -44,9 +44,7 @@ Texture::Texture(float width, float height, float gray)
       height_(height),
       gray_(gray),
       cells_u_(static_cast<int>(width / kCell) + 1),
-      cells_v_(static_cast<int>(height / kCell) + 1) {
-  paint_near_.resize(static_cast<std::size_t>(cells_u_) * static_cast<std::size_t>(cells_v_));
-}
+      cells_v_(static_cast<int>(height / kCell) + 1) {}
 
 void Texture::setBricks(const BrickPattern& bricks) {
   bricks_ = bricks;
@@ -54,6 +52,7 @@ void Texture::setBricks(const BrickPattern& bricks) {
 }
 
 void Texture::paint(const PaintedRectangle& rectangle) {
+  paint_near_.resize(static_cast<std::size_t>(cells_u_) * static_cast<std::size_t>(cells_v_));
   const auto number = static_cast<std::uint16_t>(paint_.size());
   paint_.push_back(rectangle);
   for (int j = cellOf(rectangle.v0 - kMaxPaintReach, cells_v_);
@@ -111,9 +110,9 @@ float Texture::brickGray(float u, float v, const PixelWeight& weight_u, const Pi
 
 float Texture::gray(float u, float v, const PixelWeight& weight_u, const PixelWeight& weight_v) const {
   float gray = has_bricks_ ? brickGray(u, v, weight_u, weight_v) : gray_;
-  const auto& near =
-      paint_near_[static_cast<std::size_t>(cellOf(v, cells_v_) * cells_u_ + cellOf(u, cells_u_))];
-  if (!near.empty()) {
+  if (!paint_near_.empty()) {
+    const auto& near =
+        paint_near_[static_cast<std::size_t>(cellOf(v, cells_v_) * cells_u_ + cellOf(u, cells_u_))];
     const PixelWeight wu = limited(weight_u, kMaxPaintReach);
     const PixelWeight wv = limited(weight_v, kMaxPaintReach);
     for (const std::uint16_t number : near) {

@@ -84,7 +84,8 @@ class Texture {
   bool has_bricks_{false};
   BrickPattern bricks_;
   std::vector<PaintedRectangle> paint_;
-  /// For each cell of a coarse grid the paint that a box around a point in it can touch, in order.
+  /// For each cell of a coarse grid the paint that a box around a point in it can touch, in order. Empty
+  /// without paint.
   std::vector<std::vector<std::uint16_t>> paint_near_;
   int cells_u_, cells_v_;
   std::shared_ptr<const Grain> grain_;

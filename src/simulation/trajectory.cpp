@@ -83,11 +83,22 @@ Trajectory::Trajectory(const TrajectoryOptions& options)
     add(kYaw, 1.6, 0.05);
     add(kPitch, 0.25, 0.13);
     add(kRoll, 0.20, 0.09);
+  } else if (options.motion == "drive") {
+    // 5 to 15 m/s along the street.
+    road_.emplace(options.seed);
+    signals_[kX].slope = kDriveSpeed;
+    add(kX, 3.6 / (2.0 * M_PI * 0.06), 0.06);
+    add(kY, extent.y(), 0.07);
+    add(kZ, extent.z(), 1.1);
+    add(kYaw, 0.010, 0.4);
+    add(kPitch, 0.006, 1.3);
+    add(kRoll, 0.008, 0.8);
   } else if (options.motion == "still") {
     signals_[kYaw].offset = 0.4;
   } else {
-    throw std::invalid_argument("motion \"" + options.motion +
-                                "\" is not known; known: slow, fast, corridor, shake, rotation, still");
+    throw std::invalid_argument(
+        "motion \"" + options.motion +
+        "\" is not known; known: slow, fast, corridor, shake, rotation, still, drive");
   }
 }
 
@@ -105,6 +116,13 @@ Eigen::Isometry3d Trajectory::worldFromCamera(double time_s) const {
     const std::array<double, kChannels> there{p.x(), p.y(), p.z(), bare_wall_view_->yaw, 0.0, 0.0};
     const double weight = bareWallWeight(time_s);
     for (std::size_t i = 0; i < value.size(); ++i) value[i] += weight * (there[i] - value[i]);
+  }
+  if (road_) {
+    const double x = value[kX];
+    const Eigen::Vector2d place = road_->beside(x, value[kY]);
+    value[kX] = place.x();
+    value[kY] = place.y();
+    value[kYaw] += road_->heading(x);
   }
   Eigen::Matrix3d level;  // optical axes of a camera that looks along x, in the world
   level << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;

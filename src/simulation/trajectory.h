@@ -8,12 +8,14 @@
 
 #include <Eigen/Geometry>
 
+#include "road_curve.h"
+
 namespace tet_line_tracker {
 
 struct TrajectoryOptions {
-  std::string motion{"slow"};  ///< slow, fast, corridor, shake, rotation, still
+  std::string motion{"slow"};  ///< slow, fast, corridor, shake, rotation, still, drive
   double seconds{20.0};        ///< of the sequence [s]
-  std::uint64_t seed{1};       ///< phases of the waves
+  std::uint64_t seed{1};       ///< phases of the waves, and the street's bends
 
   Eigen::Vector3d free_centre;       ///< box in which the camera may move, in the world [m]
   Eigen::Vector3d free_half_extent;  ///< [m]
@@ -40,6 +42,7 @@ class Trajectory {
   static constexpr double kBareWallTurn = 1.5;  ///< time to get there, and back [s]
   static constexpr double kFlightSpeed = 1.1;   ///< of motion corridor [m/s]
   static constexpr double kFlightStart = 3.0;   ///< x at time 0 of motion corridor [m]
+  static constexpr double kDriveSpeed = 9.5;    ///< along x, mean of motion drive [m/s]
 
  private:
   enum Channel { kX, kY, kZ, kYaw, kPitch, kRoll, kChannels };
@@ -56,6 +59,7 @@ class Trajectory {
   double bareWallWeight(double time_s) const;
 
   std::array<Signal, kChannels> signals_;
+  std::optional<RoadCurve> road_;  ///< y and yaw are relative to it
   std::optional<TrajectoryOptions::BareWallView> bare_wall_view_;
   double middle_s_;
 };

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "decorations.h"
+#include "street.h"
 #include "world_builder.h"
 
 namespace tet_line_tracker {
@@ -261,7 +262,9 @@ World makeWorld(const WorldOptions& options) {
   if (options.scene == "room") return makeRoom(options);
   if (options.scene == "corridor") return makeCorridor(options);
   if (options.scene == "empty") return makeEmptyRoom(options);
-  throw std::invalid_argument("scene \"" + options.scene + "\" is not known; known: room, corridor, empty");
+  if (options.scene == "street") return makeStreet(options);
+  throw std::invalid_argument("scene \"" + options.scene +
+                              "\" is not known; known: room, corridor, empty, street");
 }
 
 }  // namespace tet_line_tracker

@@ -35,9 +35,10 @@ struct World {
 };
 
 struct WorldOptions {
-  std::string scene{"room"};         ///< room, corridor, empty
+  std::string scene{"room"};         ///< room, corridor, empty, street
   std::uint64_t seed{1};             ///< grays, sizes and places
   double corridor_length{34.0};      ///< [m]
+  double street_length{300.0};       ///< [m]
   bool bare_wall{false};             ///< leave a stretch of wall bare, for bare_wall_view
   bool moving_object{false};         ///< a crate that swings to and fro
   std::int64_t motion_origin_ns{0};  ///< stamp at which the crate is in the middle

@@ -35,8 +35,9 @@ void matchSize(CameraCalibration& camera, const cv::Size& size) {
   makeCameraModel(camera);  // throws when it is not plausible
 }
 
-/// Writes the streams of a dataset in the order of their stamps.
-Counts writeDataset(Dataset& dataset, const std::string& out) {
+/// Writes the streams of a dataset in the order of their stamps; of the images the first and every `every`-th
+/// after it.
+Counts writeDataset(Dataset& dataset, const std::string& out, int every) {
   std::optional<StampedImage> image = dataset.images->next();
   if (!image) throw std::runtime_error("the dataset holds no images");
   if (image->stamp.isZero())
@@ -63,8 +64,10 @@ Counts writeDataset(Dataset& dataset, const std::string& out) {
       progress.advance();
     }
   };
-  for (; image; image = dataset.images->next()) {
+  for (int number = 0; image; image = dataset.images->next(), ++number) {
     throwIfInterrupted();
+    progress.advance();
+    if (number % every != 0) continue;
     writeUntil(image->stamp);
     bag.writeImage(image->stamp, image->image);
     ++counts.images;
@@ -72,7 +75,6 @@ Counts writeDataset(Dataset& dataset, const std::string& out) {
       bag.writePose(image->stamp, *pose);
       ++counts.poses;
     }
-    progress.advance();
   }
   writeUntil(ros::TIME_MAX);
   throwIfInterrupted();
@@ -90,6 +92,8 @@ int run(int argc, char** argv) {
       "path", po::value<std::string>()->required())("out", po::value<std::string>()->required())(
       "rate", po::value<double>()->value_name("HZ"),
       "images per second where the format has no stamps (images: 20, icl_nuim: 30, video: its own)")(
+      "every", po::value<int>()->value_name("N")->default_value(1),
+      "take the first image and every N-th after it, 1 or more")(
       "camera-info", po::value<std::string>()->value_name("FILE"),
       "camera_info YAML file; replaces the calibration of the dataset");
   po::positional_options_description positional;
@@ -98,7 +102,7 @@ int run(int argc, char** argv) {
   if (!parseCommandLine(
           argc, argv,
           "dataset_to_bag " + known +
-              " PATH OUT.bag [--rate HZ] [--camera-info FILE]\n\n"
+              " PATH OUT.bag [--rate HZ] [--every N] [--camera-info FILE]\n\n"
               "Turns a recorded sequence into a bag with /cam0/image_raw, /cam0/camera_info and, "
               "where there are\nsome, /depth/image_raw (16UC1 [mm]), /imu0, /ground_truth/pose "
               "(camera in world, at image stamps),\n/tf and /tf_static. Formats that count time "
@@ -120,6 +124,8 @@ int run(int argc, char** argv) {
     }
     dataset_options.rate_hz = rate_hz;
   }
+  const int every = values["every"].as<int>();
+  if (every < 1) throw std::runtime_error("--every is " + std::to_string(every) + ", needs 1 or more");
   if (values.count("camera-info") != 0) {
     dataset_options.camera = readCalibrationFile(values["camera-info"].as<std::string>()).camera;
   }
@@ -127,7 +133,7 @@ int run(int argc, char** argv) {
   // Faults are reported by this program, in one sentence.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   Dataset dataset = openDataset(values["format"].as<std::string>(), path, dataset_options);
-  const Counts counts = writeDataset(dataset, out);
+  const Counts counts = writeDataset(dataset, out, every);
   std::cout << out << ": " << counts.images << " images, " << counts.depth << " depth images, "
             << dataset.imu.size() << " IMU samples, " << counts.poses << " poses"
             << (dataset.camera ? "" : ", no calibration") << "\n";

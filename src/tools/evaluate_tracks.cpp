@@ -37,6 +37,10 @@ EvaluatedBag evaluate(const std::string& path, const std::string& lines_topic, c
   const bool has_ending = file.size() > 4 && file.compare(file.size() - 4, 4, ".bag") == 0;
   EvaluatedBag evaluated{has_ending ? file.substr(0, file.size() - 4) : file, truth.kind,
                          measureTracks(lines.frames, lines.has_statistics, truth.truth.get(), options)};
+  if (truth.camera != nullptr) {
+    evaluated.three_view = measureThreeViews(lines.frames, truth.world_from_camera, *truth.camera,
+                                             options.inlier_px, options.tight_inlier_px);
+  }
   const auto* scene = dynamic_cast<const SceneTruth*>(truth.truth.get());
   if (absolute && scene != nullptr) evaluated.absolute = measureAbsolute(lines.frames, *scene);
   return evaluated;
@@ -81,7 +85,7 @@ void plot(const std::string& json_file, const std::string& folder) {
 
 constexpr char kColumns[] = R"(
 Columns (- where a value is not known):
-  truth      what the lines are judged by: scene, depth or none
+  truth      what the lines are judged by: scene, depth, poses or none
   images     images with lines, empty ones included
   lines      lines per image, mean
   px         length of the lines in the image, mean [px]
@@ -99,6 +103,13 @@ Columns (- where a value is not known):
   ms         time per image, mean, by the statistics in the bag (track_bag --times)
   ms p99     the same, 99th percentile
   homog%     share of the lines in two images in a row that agree on one homography
+  3v<2px%    three-view error, where poses are known: of three images of a track in a row the
+             first and the last give a line in space; share of the triples in which the ends
+             seen in the middle are less than 2 px from its projection (error divided by the
+             sensitivity of the projection to 1 px in the last image, where that is over 1)
+  3v<1px%    the same under 1 px
+  3vout%     share of all triples left out as ill-posed (sensitivity over 5)
+  3vref%     share of all triples that are refuted: 2 px and more
 
 Columns of the second table (--absolute; needs the scene of simulate_bag): how far lines lie from the
 true edge that they show. An edge is judged when it is visible beside most of the line, both
@@ -145,13 +156,13 @@ int run(int argc, char** argv) {
   po::positional_options_description positional;
   positional.add("bag", -1);
   po::variables_map values;
-  if (!parseCommandLine(
-          argc, argv,
-          "evaluate_tracks BAG... [options]\n\n"
-          "Judges the lines of bags by the exact scene of simulate_bag, or by depth images and "
-          "poses.\nWithout truth only counts, lengths, times and the agreement with a homography "
-          "are given.",
-          options, positional, values, kColumns)) {
+  if (!parseCommandLine(argc, argv,
+                        "evaluate_tracks BAG... [options]\n\n"
+                        "Judges the lines of bags by the exact scene of simulate_bag, or by depth images and "
+                        "poses,\nor by poses alone (three-view error). Without truth only counts, lengths, "
+                        "times and the agreement with a homography "
+                        "are given.",
+                        options, positional, values, kColumns)) {
     return 0;
   }
 

@@ -15,8 +15,10 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "../ros/image_conversion.h"
+#include "bag_calibration.h"
 #include "bag_image.h"
 #include "bag_reader.h"
+#include "bag_topics.h"
 #include "line_bag.h"
 #include "output_file.h"
 #include "program.h"
@@ -32,6 +34,7 @@ struct Arguments {
   std::string lines_topic;
   std::string image_topic;
   std::size_t number{0};
+  bool chords{false};
 };
 
 /// Paints all images up to the chosen one: trails need those before.
@@ -51,6 +54,7 @@ void paintTracks(const Arguments& arguments) {
   checkDefinition<sensor_msgs::Image>(bag, arguments.image_topic);
   checkDefinition<sensor_msgs::CompressedImage>(bag, arguments.image_topic);
   TrackPainter painter;
+  BagCalibration calibration(bag, chooseCameraInfoTopic(bag, "", arguments.image_topic));
   cv::Mat picture;
   std::size_t painted = 0;
   rosbag::View view(bag, rosbag::TopicQuery(arguments.image_topic));
@@ -63,7 +67,11 @@ void paintTracks(const Arguments& arguments) {
     }
     const auto frame = frames.find(static_cast<std::int64_t>(image->header.stamp.toNSec()));
     if (frame == frames.end()) continue;
-    painter.paint(toGray(*image, 1.0 / 256.0), *frame->second, picture);
+    const cv::Mat gray = toGray(*image, 1.0 / 256.0);
+    if (!arguments.chords) {
+      painter.setCamera(calibration.modelFor(image->header.stamp, gray.cols, gray.rows));
+    }
+    painter.paint(gray, *frame->second, picture);
     if (++painted == arguments.number) break;
   }
   if (painted < arguments.number) {
@@ -86,7 +94,8 @@ int run(int argc, char** argv) {
       ("picture", po::value(&arguments.picture)->required(), "picture to write, .png or .jpg")
       ("number", po::value(&arguments.number)->default_value(1), "which image, counted from 1")
       ("lines", po::value(&arguments.lines_topic)->default_value(sequence_bag::kLinesTopic), "topic of the lines")
-      ("image", po::value(&arguments.image_topic)->default_value(sequence_bag::kImageTopic), "topic of the images");
+      ("image", po::value(&arguments.image_topic)->default_value(sequence_bag::kImageTopic), "topic of the images")
+      ("chords", po::bool_switch(&arguments.chords), "straight lines in the image, although the lens bends them");
   // clang-format on
   po::positional_options_description positional;
   positional.add("bag", 1).add("picture", 1);

@@ -24,6 +24,7 @@ struct Arguments {
   SimulationOptions simulation;
   bool no_imu{false};
   bool noise_free_imu{false};
+  double imu_time_offset_s{0.0};
 };
 
 ros::Time toRosTime(std::int64_t stamp_ns) {
@@ -42,16 +43,19 @@ int writeImuSamples(SequenceBag& bag, const Simulation& simulation, const Argume
     const double time_s = i / kRate - kMargin;
     const InertialSample ideal = idealInertialSample(simulation.trajectory(), defaultCameraFromImu(), time_s);
     const InertialSample sample = arguments.noise_free_imu ? ideal : errors.apply(ideal);
-    bag.writeImu(toRosTime(simulation.stampAt(time_s)), sample.angular_velocity, sample.acceleration);
+    bag.writeImu(toRosTime(simulation.stampAt(time_s + arguments.imu_time_offset_s)), sample.angular_velocity,
+                 sample.acceleration);
   }
   return count;
 }
 
 int simulate(const Arguments& arguments) {
   checkOutput(arguments.out, {arguments.camera_info});
-  const CameraCalibration camera = arguments.camera_info.empty()
-                                       ? defaultSimulatedCamera()
-                                       : readCalibrationFile(arguments.camera_info).camera;
+  const bool street = arguments.simulation.motion == "drive";
+  const CameraCalibration camera = !arguments.camera_info.empty()
+                                       ? readCalibrationFile(arguments.camera_info).camera
+                                   : street ? streetCamera()
+                                            : defaultSimulatedCamera();
   Simulation simulation(arguments.simulation, makeCameraModel(camera));
   const ros::Time first_stamp = toRosTime(simulation.imageStamp(0));
   // The IMU begins a little earlier, and transforms come before all that needs them.
@@ -86,15 +90,17 @@ int run(int argc, char** argv) {
   po::options_description options;
   options.add_options()("out", po::value(&arguments.out)->required(), "bag to write");
   options.add_options()("scene", po::value(&simulation.scene),
-                        "room, corridor or empty (default: what suits the motion)");
-  options.add_options()("motion", po::value(&simulation.motion)->default_value(simulation.motion),
-                        "slow, fast, corridor, shake, rotation or still");
+                        "room, corridor, empty or street (default: what suits the motion)");
+  options.add_options()(
+      "motion", po::value(&simulation.motion)->default_value(simulation.motion),
+      "slow, fast, corridor, shake, rotation, still, or drive (5 to 15 m/s along the street)");
   options.add_options()("light", po::value(&simulation.light)->default_value(simulation.light),
                         "normal, or a list of low, gain_jumps, drift (low,drift)");
   options.add_options()("seconds", po::value(&simulation.seconds)->default_value(simulation.seconds),
                         "from the first image to the last [s]");
-  options.add_options()("rate", po::value(&simulation.rate_hz)->default_value(simulation.rate_hz),
-                        "images per second [Hz]");
+  options.add_options()(
+      "rate", po::value(&simulation.rate_hz),
+      "images per second, whose exposure does not depend on it (default: 20, for drive 10) [Hz]");
   options.add_options()("seed", po::value(&simulation.seed)->default_value(simulation.seed),
                         "of all that is random");
   options.add_options()("moving-object", po::bool_switch(&simulation.moving_object),
@@ -102,10 +108,12 @@ int run(int argc, char** argv) {
   options.add_options()("textureless-phase", po::bool_switch(&simulation.textureless_phase),
                         "the camera looks at a bare wall for 1.5 s in the middle");
   options.add_options()("camera-info", po::value(&arguments.camera_info)->value_name("FILE"),
-                        "calibration of the camera (default: EuRoC's cam0)");
+                        "calibration of the camera (default: EuRoC's cam0, for drive KITTI's)");
   options.add_options()("no-imu", po::bool_switch(&arguments.no_imu), "write no IMU and no extrinsics");
   options.add_options()("noise-free-imu", po::bool_switch(&arguments.noise_free_imu),
                         "IMU without noise and bias");
+  options.add_options()("imu-time-offset", po::value(&arguments.imu_time_offset_s)->value_name("S"),
+                        "stamps of the IMU are later by this than those of images, -0.5 to 0.5 [s]");
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   options.add_options()("threads", po::value(&simulation.threads)->default_value(cores),
                         "for rendering; the bag does not depend on it");
@@ -113,6 +121,11 @@ int run(int argc, char** argv) {
   positional.add("out", 1);
   po::variables_map values;
   if (!parseCommandLine(argc, argv, "simulate_bag OUT.bag [options]", options, positional, values)) return 0;
+  if (!(std::abs(arguments.imu_time_offset_s) <= 0.5)) {
+    throw std::invalid_argument("imu-time-offset is " + std::to_string(arguments.imu_time_offset_s) +
+                                ", needs -0.5..0.5");
+  }
+  if (values.count("rate") == 0 && simulation.motion == "drive") simulation.rate_hz = 10.0;
   return simulate(arguments);
 }
 

@@ -16,6 +16,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "../evaluation/baselines/baseline_tracker.h"
+#include "../evaluation/baselines/chord_camera.h"
 #include "../ros/image_conversion.h"
 #include "../ros/imu_extrinsic.h"
 #include "../ros/mask_file.h"
@@ -44,7 +45,7 @@ constexpr char kStatisticsTopic[] = "/line_tracker/statistics";
 struct Arguments {
   std::string input, output;
   std::string image_topic, camera_info_topic, imu_topic;
-  std::string tracker;  ///< tet or a baseline
+  std::string tracker;  ///< tet, tet_chord or a baseline
   bool with_images{false};
   bool times{false};
 };
@@ -155,11 +156,12 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
   const auto images = inStampOrder(view, progress, drops);
 
   LineTracker tracker(tracker_parameters);
-  if (arguments.tracker == "tet") {
+  const bool chords = arguments.tracker == "tet_chord";
+  if (arguments.tracker == "tet" || chords) {
     for (const std::string& note : tracker.notes()) std::cerr << "track_bag: " << note << '\n';
   }
   std::unique_ptr<LineFrontEnd> baseline;
-  if (arguments.tracker != "tet") {
+  if (arguments.tracker != "tet" && !chords) {
     baseline = makeBaselineTracker(arguments.tracker, tracker_parameters);
     cv::setNumThreads(1);  // times are those of one thread
   }
@@ -187,6 +189,7 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
   }
 
   TimeTable times;
+  std::shared_ptr<const CameraModel> camera_before;
   std::uint32_t sequence = 0;
   std::size_t lines = 0;
   std::size_t tracks = 0;
@@ -206,11 +209,13 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
     }
     const std::string complaint = maskComplaint(mask, gray.cols, gray.rows);
     if (!complaint.empty()) throw std::runtime_error(complaint);
-    front_end.setCamera(calibration.modelFor(stamp, gray.cols, gray.rows));
+    const auto camera = calibration.modelFor(stamp, gray.cols, gray.rows);
+    if (camera != camera_before) front_end.setCamera(chords ? asChordCamera(camera) : camera);
+    camera_before = camera;
     const std::string trouble = calibration.takeComplaint();
     if (!trouble.empty()) warn(progress, trouble);
     const auto stamp_ns = static_cast<std::int64_t>(stamp.toNSec());
-    if (imu) imu->feed(stamp_ns, tracker);
+    if (imu) imu->feed(tracker.imuStamp(stamp_ns), tracker);
     FrameResult result;
     try {
       result = front_end.process(gray, stamp_ns);
@@ -259,8 +264,8 @@ int run(int argc, char** argv) {
       ("camera-info", po::value(&arguments.camera_info_topic), "camera_info topic; needed when the bag has several")
       ("imu", po::value(&arguments.imu_topic), "IMU topic for the motion prior; the only one is taken without asking")
       ("tracker", po::value(&arguments.tracker)->default_value("tet"),
-       "tet, or a baseline to compare with: lsd_lbd_knn, lk_endpoints (in their statistics, flow is the matching and "
-       "refine the description)")
+       "tet, or one to compare with: tet_chord (lines straight in the raw image), lsd_lbd_knn, lsd_remapped (the same "
+       "on undistorted images), lk_endpoints (in their statistics, flow is the matching and refine the description)")
       ("set", po::value(&settings)->composing(), "name=value: one parameter; may be given again")
       ("threads", po::value(&threads), "as --set threads=N; the lines do not depend on it")
       ("times", po::bool_switch(&arguments.times), "write the times of each image to /line_tracker/statistics as well")

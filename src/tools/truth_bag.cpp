@@ -82,13 +82,12 @@ BagTruth readTruth(const rosbag::Bag& bag) {
   for (const rosbag::MessageInstance& instance : scene_view) {
     const auto message = instance.instantiate<std_msgs::String>();
     if (!message) continue;
-    return {std::make_unique<SceneTruth>(SceneGeometry::fromText(message->data), std::move(poses),
-                                         std::move(camera)),
-            "scene"};
+    return {std::make_unique<SceneTruth>(SceneGeometry::fromText(message->data), poses, camera), "scene",
+            camera, poses};
   }
-  auto truth = depthTruth(bag, std::move(poses), std::move(camera));
-  if (truth == nullptr) return {nullptr, "none"};
-  return {std::move(truth), "depth"};
+  auto truth = depthTruth(bag, poses, camera);
+  const char* const kind = truth == nullptr ? "poses" : "depth";
+  return {std::move(truth), kind, camera, std::move(poses)};
 }
 
 }  // namespace tet_line_tracker

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +31,11 @@ CameraCalibration calibrationOf(const std::string& lens) {
     calibration.model = "equidistant";
     calibration.fx = calibration.fy = 230.0;
     calibration.distortion = {0.0, 0.0, 0.0, 0.0};
+  }
+  if (lens == "mei") {
+    calibration.model = "mei";
+    calibration.fx = calibration.fy = 668.2;
+    calibration.distortion = {2.2134, 0.0168, 1.6549, 0.0, 0.0};
   }
   return calibration;
 }
@@ -148,6 +154,75 @@ TEST_P(EdgeJudgeTest, KnowsNoEdgeWhereNoneIsSeen) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Lenses, EdgeJudgeTest, testing::Values("pinhole", "euroc"));
+
+/// Lines along edges up to 80 degrees from the axis, as a wide lens sees them, with known noise.
+class WideScene {
+ public:
+  explicit WideScene(const std::string& lens) : camera_(makeCameraModel(calibrationOf(lens))) {
+    const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+    const Eigen::Vector3d y = Eigen::Vector3d::UnitY();
+    const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+    scene_.addRectangle({{-10, -10, 4}, x, y, 20, 20, -1});
+    scene_.addRectangle({{2, -10, -4}, z, y, 8, 20, -1});
+    scene_.addEdge({{2, -1.0, 0.4}, {2, -1.0, 3.5}});  // along the wall on the right, 30 to 79 degrees
+    scene_.addEdge({{2, -1.5, 0.6}, {2, 1.5, 0.6}});   // upright beside the camera, 73 to 78 degrees
+    scene_.addEdge({{-1.5, 0.8, 4}, {1.8, 1.0, 4}});   // ahead
+    poses_.add(kStamp, Eigen::Isometry3d::Identity());
+    poses_.sort();
+    truth_ = std::make_unique<SceneTruth>(scene_, poses_, camera_);
+  }
+
+  /// Mean of the squared errors of both ends over the squared noise, of lines all along the edges.
+  double normalizedSquares(double noise_px, std::size_t* judged) const {
+    std::mt19937 random(9);
+    std::normal_distribution<double> normal(0.0, noise_px);
+    const EdgeJudge judge(*truth_);
+    double squares = 0.0;
+    *judged = 0;
+    for (int i = 0; i < 300; ++i) {
+      const TrueEdge& edge = scene_.edges()[static_cast<std::size_t>(i) % 3];
+      const double from = 0.05 + 0.002 * i;
+      LineFrame frame;
+      frame.stamp_ns = kStamp;
+      TrackedLine& line = frame.lines.emplace_back();
+      const double to = from + 0.3;
+      line.segment = {noisy(edge, from, normal(random)), noisy(edge, to, normal(random))};
+      line.start_normalized = *camera_->normalize(line.segment.start.cast<double>());
+      line.end_normalized = *camera_->normalize(line.segment.end.cast<double>());
+      const EdgeVerdict verdict = judge.judge(frame).front();
+      if (verdict.kind != EdgeVerdict::Kind::kJudged) continue;
+      ++*judged;
+      squares +=
+          (verdict.start_px * verdict.start_px + verdict.end_px * verdict.end_px) / (noise_px * noise_px);
+    }
+    return squares / (2.0 * static_cast<double>(*judged));
+  }
+
+ private:
+  /// Point of an edge in the image, off by so much across the image of the edge [px].
+  Eigen::Vector2f noisy(const TrueEdge& edge, double share, double across) const {
+    const auto at = [&](double s) { return *camera_->project(edge.start + s * (edge.end - edge.start)); };
+    const Eigen::Vector2d along = (at(share + 1e-3) - at(share - 1e-3)).normalized();
+    return (at(share) + across * Eigen::Vector2d(along.y(), -along.x())).cast<float>();
+  }
+
+  std::shared_ptr<const CameraModel> camera_;
+  SceneGeometry scene_;
+  PoseTrack poses_;
+  std::unique_ptr<SceneTruth> truth_;
+};
+
+TEST(EdgeJudge, GivesBackTheNoiseOfPerfectLinesFarFromTheAxisOfAWideLens) {
+  for (const char* lens : {"equidistant", "mei"}) {
+    const WideScene world(lens);
+    for (const double noise_px : {0.02, 0.3}) {
+      std::size_t judged = 0;
+      EXPECT_NEAR(std::sqrt(world.normalizedSquares(noise_px, &judged)), 1.0, 0.08)
+          << lens << " " << noise_px;
+      EXPECT_GT(judged, 290U) << lens;
+    }
+  }
+}
 
 TEST(EdgeJudge, MeasuresInTheImageOfALensThatLooksBeyondTheUnitPlane) {
   const EdgeScene world("equidistant");

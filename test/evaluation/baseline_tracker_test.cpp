@@ -10,7 +10,9 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include "evaluation/baselines/chord_camera.h"
 #include "evaluation/line_rules.h"
+#include "tet_line_tracker/camera/lens_bend.h"
 #include "tet_line_tracker/detection/line_detector.h"
 
 namespace tet_line_tracker {
@@ -98,7 +100,75 @@ TEST_P(EveryBaseline, GoesThroughAnImageWithoutLines) {
   EXPECT_FALSE(baseline->process(boxes(0.0), 1100000000).frame->lines.empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Baselines, EveryBaseline, testing::Values("lsd_lbd_knn", "lk_endpoints"));
+INSTANTIATE_TEST_SUITE_P(Baselines, EveryBaseline,
+                         testing::Values("lsd_lbd_knn", "lsd_remapped", "lk_endpoints"));
+
+/// A dark bar in space, as EuRoC's lens bends it.
+class BentBar {
+ public:
+  BentBar() {
+    CameraCalibration calibration;
+    calibration.model = "plumb_bob";
+    calibration.width = 752;
+    calibration.height = 480;
+    calibration.fx = calibration.fy = 458.0;
+    calibration.cx = 367.0;
+    calibration.cy = 248.0;
+    calibration.distortion = {-0.28, 0.07, 0.0, 0.0};
+    camera = makeCameraModel(calibration);
+    image = cv::Mat(480, 752, CV_8UC1);
+    for (int y = 0; y < image.rows; ++y) {
+      for (int x = 0; x < image.cols; ++x) {
+        const Eigen::Vector2d point = *camera->normalize({static_cast<double>(x), static_cast<double>(y)});
+        const double dark = std::erf((point.y() - kTop) * 400.0) - std::erf((point.y() - kBottom) * 400.0);
+        image.at<std::uint8_t>(y, x) = cv::saturate_cast<std::uint8_t>(160.0 - 50.0 * dark);
+      }
+    }
+  }
+
+  /// Distance of the worse undistorted end from the nearer edge, of the longest line [px].
+  double errorOf(BaselineTracker& tracker) const {
+    tracker.setCamera(camera);
+    const LineFrame* frame = tracker.process(image, 1000000000).frame;
+    const auto longer = [](const TrackedLine& a, const TrackedLine& b) {
+      return a.segment.length() < b.segment.length();
+    };
+    const auto longest = std::max_element(frame->lines.begin(), frame->lines.end(), longer);
+    if (longest == frame->lines.end() || longest->segment.length() < 150.0F) return std::nan("");
+    double worst = 0.0;
+    for (const Eigen::Vector2d& end : {longest->start_normalized, longest->end_normalized}) {
+      worst = std::max(worst, 458.0 * std::min(std::abs(end.y() - kTop), std::abs(end.y() - kBottom)));
+    }
+    return worst;
+  }
+
+  static constexpr double kTop = -0.42;
+  static constexpr double kBottom = -0.36;
+  std::shared_ptr<const CameraModel> camera;
+  cv::Mat image;
+};
+
+TEST(LsdRemapped, SeesStraightWhatTheLensBends) {
+  const auto names = baselineNames();
+  if (std::find(names.begin(), names.end(), "lsd_remapped") == names.end())
+    GTEST_SKIP() << "not part of this build";
+  const BentBar bar;
+  const double remapped = bar.errorOf(*makeBaselineTracker("lsd_remapped", LineTrackerParameters{}));
+  const double bent = bar.errorOf(*makeBaselineTracker("lsd_lbd_knn", LineTrackerParameters{}));
+  EXPECT_LT(remapped, 0.2);
+  EXPECT_GT(bent, 0.5);
+}
+
+TEST(ChordCamera, BendsNoLineAndProjectsAsTheLensDoes) {
+  const BentBar bar;
+  const auto chords = asChordCamera(bar.camera);
+  EXPECT_FALSE(LensBend(bar.camera, 752, 480).isStraight());
+  EXPECT_TRUE(LensBend(chords, 752, 480).isStraight());
+  const Eigen::Vector2d pixel(40.0, 30.0);
+  EXPECT_EQ(*chords->unproject(pixel), *bar.camera->unproject(pixel));
+  EXPECT_EQ(*chords->project({0.5, -0.3, 1.0}), *bar.camera->project({0.5, -0.3, 1.0}));
+  EXPECT_EQ(asChordCamera(nullptr), nullptr);
+}
 
 TEST(MakeBaselineTracker, NamesWhatThereIs) {
   try {

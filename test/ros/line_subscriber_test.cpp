@@ -40,16 +40,17 @@ TEST(LineSubscriber, ExamplesOfTheDocumentationCountTheSameTracks) {
       if (id == 1 && i >= 5) continue;  // ends
       Line line;
       line.id = id;
+      line.covariance_px = {0.04F, 0.0F, 0.01F};
+      if (id == 0 && i == 6) line.covariance_px[2] = std::numeric_limits<float>::quiet_NaN();
       if (id == 2) line.start_normalized[0] = std::numeric_limits<double>::quiet_NaN();
       array.lines.push_back(line);
     }
     lines.publish(array);
   }
   ASSERT_TRUE(waitFor([&] { return cpp.size() >= 8 && python.size() >= 8; }));
-  const std::vector<std::string> expected{"2 lines, 0 seen 5 times", "2 lines, 0 seen 5 times",
-                                          "2 lines, 0 seen 5 times", "2 lines, 0 seen 5 times",
-                                          "2 lines, 2 seen 5 times", "1 lines, 1 seen 5 times",
-                                          "1 lines, 1 seen 5 times", "1 lines, 0 seen 5 times"};
+  const std::vector<std::string> expected{"2 lines, 0 usable", "2 lines, 0 usable", "2 lines, 0 usable",
+                                          "2 lines, 0 usable", "2 lines, 2 usable", "1 lines, 1 usable",
+                                          "1 lines, 0 usable", "1 lines, 0 usable"};
   EXPECT_EQ(cpp, expected);
   EXPECT_EQ(python, expected);
 }

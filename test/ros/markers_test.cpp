@@ -1,7 +1,10 @@
 #include "markers.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
+#include "tet_line_tracker/camera/lens_bend.h"
 #include "tet_line_tracker/display/track_painter.h"
 
 namespace tet_line_tracker {
@@ -42,6 +45,34 @@ TEST(Markers, LieOnThePlaneInTheColourOfTheAge) {
   ASSERT_EQ(lines.colors.size(), 4U);
   EXPECT_EQ(lines.colors[0].r, colourOfAge(7)[0]);
   EXPECT_EQ(lines.colors[0].a, 1.0F);
+}
+
+TEST(Markers, RunAlongTheWholeEdgeThatTheLensBends) {
+  CameraCalibration calibration;
+  calibration.model = "plumb_bob";
+  calibration.width = 752;
+  calibration.height = 480;
+  calibration.fx = calibration.fy = 458.0;
+  calibration.cx = 367.0;
+  calibration.cy = 248.0;
+  calibration.distortion = {-0.28, 0.07, 0.0, 0.0};
+  const auto camera = makeCameraModel(calibration);
+  LineFrame frame = frameOf(0, 1, true);
+  TrackedLine& line = frame.lines[0];
+  line.segment = {{100.0F, 60.0F}, {650.0F, 60.0F}};
+  line.start_normalized = *camera->normalize(line.segment.start.cast<double>());
+  line.end_normalized = *camera->normalize(line.segment.end.cast<double>());
+  const auto markers = MarkerBuilder(false).build(frame, "cam0").markers;
+  ASSERT_EQ(markers[1].points.size(), 2U);
+  const auto& from = markers[1].points[0];
+  const auto& to = markers[1].points[1];
+  const LineCurve curve = LensBend(camera, 752, 480).curve(line.segment);
+  ASSERT_GT(std::abs(curve.bend.offset(0.5F)), 8.0F);
+  for (const float fraction : {0.2F, 0.5F, 0.7F}) {
+    const Eigen::Vector2d seen = *camera->normalize(curve.at(fraction).cast<double>());
+    const double across = (seen.x() - from.x) * (to.y - from.y) - (seen.y() - from.y) * (to.x - from.x);
+    EXPECT_NEAR(458.0 * across / std::hypot(to.x - from.x, to.y - from.y), 0.0, 0.1);
+  }
 }
 
 TEST(Markers, AreAllDeletedWhenAnEpochBeginsAndOnlyThen) {

@@ -62,11 +62,12 @@ TEST(Messages, GiveEachReasonOfALossItsField) {
   frame.statistics.lines_cut = 11;
   frame.statistics.lines_left_out = 12;
   frame.statistics.total_ms = 2.5;
+  frame.statistics.imu_time_offset = -0.25;
   const TrackingStatistics message = toTrackingStatistics(frame, "cam0", 0, 4);
   const std::vector<std::uint32_t> lost{
-      message.lost_flow,    message.lost_residual,  message.lost_length_ratio, message.lost_angle,
-      message.lost_support, message.lost_border,    message.lost_short,        message.lost_field_of_view,
-      message.lost_mask,    message.lost_edge_jump, message.lost_duplicate};
+      message.lost_flow,    message.lost_residual, message.lost_length_ratio, message.lost_angle,
+      message.lost_support, message.lost_border,   message.lost_short,        message.lost_field_of_view,
+      message.lost_mask,    message.lost_depth,    message.lost_edge_jump,    message.lost_duplicate};
   ASSERT_EQ(lost.size(), frame.statistics.lost.size());
   for (std::size_t i = 0; i < lost.size(); ++i) EXPECT_EQ(lost[i], 100 + i);
   EXPECT_EQ(message.dropped_late, 7U);
@@ -74,6 +75,7 @@ TEST(Messages, GiveEachReasonOfALossItsField) {
   EXPECT_EQ(message.lines_left_out, 12U);
   EXPECT_EQ(message.dropped_queue, 4U);
   EXPECT_EQ(message.total_ms, 2.5F);
+  EXPECT_EQ(message.imu_time_offset, -0.25F);
   EXPECT_EQ(message.epoch, 3U);
 }
 

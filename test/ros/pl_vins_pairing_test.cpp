@@ -106,15 +106,24 @@ TEST(PlVinsPairing, AddsFurtherChannelsOnlyOnRequest) {
   PlVinsPairing pairing(parameters);
   FakeTracker tracker;
   tracker.add();
-  pairing.addLines(tracker.image(0.0));
+  const auto image = boost::make_shared<LineArray>(*tracker.image(0.0));
+  image->lines[0].covariance_px = {0.04F, -0.01F, 0.09F};
+  image->lines[0].cut = 2;
+  pairing.addLines(image);
   pairing.addPoints(pointsAt(0.0), 0.0);
   pairing.addPoints(pointsAt(0.1), 0.0);
   const auto sent = pairing.take(1.0);
   ASSERT_EQ(sent.size(), 2U);
-  ASSERT_EQ(sent[0]->channels.size(), 9U);
+  ASSERT_EQ(sent[0]->channels.size(), 13U);
   EXPECT_EQ(sent[0]->channels[6].name, "end_px_y");
   EXPECT_EQ(sent[0]->channels[6].values, std::vector<float>{90.0F});
-  EXPECT_EQ(sent[1]->channels.size(), 9U);
+  const std::vector<std::pair<std::string, float>> uncertainty{
+      {"var_start_px2", 0.04F}, {"cov_px2", -0.01F}, {"var_end_px2", 0.09F}, {"cut", 2.0F}};
+  for (std::size_t i = 0; i < uncertainty.size(); ++i) {
+    EXPECT_EQ(sent[0]->channels[9 + i].name, uncertainty[i].first);
+    EXPECT_EQ(sent[0]->channels[9 + i].values, std::vector<float>{uncertainty[i].second});
+  }
+  EXPECT_EQ(sent[1]->channels.size(), 13U);
 }
 
 TEST(PlVinsPairing, WaitsForLateLinesButNotForEver) {

@@ -38,6 +38,13 @@ TEST_F(StreamDiagnosticsTest, AreOkWhenNothingIsAmiss) {
   EXPECT_EQ(valueOf("images tracked"), "1");
 }
 
+TEST_F(StreamDiagnosticsTest, TellTheTimeOffsetOfTheImu) {
+  LineFrame frame;
+  frame.statistics.imu_time_offset = 0.0203;
+  diagnostics_.addTracked(frame, 1.0);
+  EXPECT_EQ(valueOf("imu time offset [s]"), "0.0203");
+}
+
 TEST_F(StreamDiagnosticsTest, WarnOfAnImuThatIsOutOfStep) {
   setup_.imu_in_step = false;
   const auto status = report();

@@ -1,13 +1,9 @@
 #!/usr/bin/env python3
 """Tests of scripts/rooms.py, by which lint.py judges the project.   rooms_test.py [RESULT.xml]"""
-import os
-import sys
 import unittest
-import xml.etree.ElementTree as ElementTree
 
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..')
-sys.path.insert(0, os.path.join(ROOT, 'scripts'))
-import rooms  # noqa: E402
+import cases
+import rooms
 
 
 def small_project():
@@ -113,28 +109,5 @@ class Rooms(unittest.TestCase):
                          [('geometry', ['line', 'grid']), ('tracking', ['tracker'])])
 
 
-class XmlResult(unittest.TextTestResult):
-    """Keeps a JUnit element of each case, for scripts/count_tests.py."""
-
-    def __init__(self, *arguments):
-        super().__init__(*arguments)
-        self.suite = ElementTree.Element('testsuite', name='rooms_test')
-
-    def startTest(self, test):
-        super().startTest(test)
-        self.case = ElementTree.SubElement(self.suite, 'testcase', classname=type(test).__name__,
-                                           name=test.id().rsplit('.', 1)[-1])
-
-    def addFailure(self, test, error):
-        super().addFailure(test, error)
-        ElementTree.SubElement(self.case, 'failure', message=str(error[1]))
-
-    addError = addFailure
-
-
 if __name__ == '__main__':
-    result = unittest.TextTestRunner(resultclass=XmlResult).run(unittest.defaultTestLoader.loadTestsFromTestCase(Rooms))
-    if len(sys.argv) > 1:
-        os.makedirs(os.path.dirname(sys.argv[1]), exist_ok=True)
-        ElementTree.ElementTree(result.suite).write(sys.argv[1])
-    sys.exit(0 if result.wasSuccessful() else 1)
+    cases.run(Rooms)

@@ -72,6 +72,17 @@ TEST_F(ImageFolder, TakesRateAndCalibrationFromTheCommandLine) {
   EXPECT_EQ(info.D, (std::vector<double>{-0.3, 0.1, 0.001, -0.002, 0.0}));
 }
 
+TEST_F(ImageFolder, ThinnedKeepsTheFirstImageAndEveryNthAfterItWithTheirStamps) {
+  const ToolRun run = convert("images", {"--rate", "4", "--every", "2"});
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const auto images = readTopic<sensor_msgs::Image>(bag(), "/cam0/image_raw");
+  ASSERT_EQ(images.size(), 2U);
+  EXPECT_EQ(images[0].message.data.at(0), 1);
+  EXPECT_EQ(images[1].message.data.at(0), 10);
+  EXPECT_EQ(images[1].message.header.stamp, ros::Time(1, 500000000));
+  EXPECT_NE(convert("images", {"--every", "0"}).status, 0);
+}
+
 TEST_F(ImageFolder, KeepsColourAndSixteenBits) {
   writeImage("img1.png", 1, CV_8UC3);
   writeImage("img2.png", 2, CV_16UC1);

@@ -75,6 +75,35 @@ TEST(SimulateBag, HoldsAllThatTheJudgeAndAnEstimatorNeed) {
   EXPECT_TRUE(geometry.raycast(camera.translation(), camera.linear().col(2), 1000000000000));
 }
 
+TEST(SimulateBag, StampsTheImuLaterByTheOffset) {
+  const TemporaryFolder folder;
+  const std::string in_step = folder.path() / "in_step.bag";
+  const std::string late = folder.path() / "late.bag";
+  ASSERT_EQ(runTool("simulate_bag", {in_step, "--seconds", "0.05"}).status, 0);
+  ASSERT_EQ(runTool("simulate_bag", {late, "--seconds", "0.05", "--imu-time-offset", "0.02"}).status, 0);
+  const auto expected = readTopic<sensor_msgs::Imu>(in_step, "/imu0");
+  const auto imu = readTopic<sensor_msgs::Imu>(late, "/imu0");
+  ASSERT_EQ(imu.size(), expected.size());
+  for (std::size_t i = 0; i < imu.size(); ++i) {
+    EXPECT_NEAR((imu[i].message.header.stamp - expected[i].message.header.stamp).toSec(), 0.02, 1e-8);
+    EXPECT_EQ(imu[i].message.angular_velocity.x, expected[i].message.angular_velocity.x);
+  }
+  EXPECT_EQ(readTopic<sensor_msgs::Image>(late, "/cam0/image_raw").size(), 2U);
+}
+
+TEST(SimulateBag, DrivesAlongTheStreetAtTenImagesPerSecondWithKittisCamera) {
+  const TemporaryFolder folder;
+  const std::string bag = folder.path() / "street.bag";
+  const ToolRun run = runTool("simulate_bag", {bag, "--motion", "drive", "--seconds", "0.1"});
+  ASSERT_EQ(run.status, 0) << run.errors;
+  EXPECT_EQ(run.output.find(bag + ": 2 images, "), 0U) << run.output;
+  const auto infos = readTopic<sensor_msgs::CameraInfo>(bag, "/cam0/camera_info");
+  ASSERT_FALSE(infos.empty());
+  EXPECT_EQ(infos[0].message.width, 1241U);
+  EXPECT_EQ(infos[0].message.height, 376U);
+  EXPECT_NEAR(infos[0].message.K[0], 718.856, 1e-9);
+}
+
 TEST(SimulateBag, EndsWithASentenceAndNoBagOnBadInput) {
   const TemporaryFolder folder;
   const std::string bag = folder.path() / "never.bag";
@@ -83,6 +112,8 @@ TEST(SimulateBag, EndsWithASentenceAndNoBagOnBadInput) {
                                                 {"--light", "candle"},
                                                 {"--seconds", "-1"},
                                                 {"--rate", "0"},
+                                                {"--imu-time-offset", "0.6"},
+                                                {"--motion", "drive", "--scene", "room"},
                                                 {"--scene", "room", "--motion", "corridor"}}) {
     std::vector<std::string> arguments{bag};
     arguments.insert(arguments.end(), wrong.begin(), wrong.end());

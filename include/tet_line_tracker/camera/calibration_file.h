@@ -17,6 +17,9 @@ struct CalibrationFile {
   /// Moves a point from the IMU's frame to the camera's optical frame, when the file says so (Kalibr's
   /// T_cam_imu, the extrinsicRotation and extrinsicTranslation or body_T_cam of VINS).
   std::optional<Eigen::Isometry3d> camera_from_imu;
+  /// Stamp of the IMU less that of the camera at the same moment [s], when the file says so (Kalibr's
+  /// timeshift_cam_imu, VINS's td): the value of the parameter imu_time_offset.
+  std::optional<double> imu_time_offset{};
 };
 
 /// Reads a calibration in any of these formats, which it tells apart by their keys:

@@ -40,6 +40,9 @@ class CameraModel {
   /// Unit ray of a pixel; nothing when the undistortion does not converge.
   virtual std::optional<Eigen::Vector3d> unproject(const Eigen::Vector2d& pixel) const = 0;
 
+  /// Whether lines that are straight in space may be bent in the image.
+  virtual bool bendsLines() const { return true; }
+
   /// Undistorted point of a pixel on z = 1; nothing when unproject() gives none, or a ray with z below
   /// kMinForward: to the side of the camera or behind it.
   std::optional<Eigen::Vector2d> normalize(const Eigen::Vector2d& pixel) const;

@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <unordered_map>
 
 #include <opencv2/core.hpp>
 
+#include "tet_line_tracker/camera/lens_bend.h"
 #include "tet_line_tracker/tracking/line_frame.h"
 
 namespace tet_line_tracker {
@@ -32,6 +34,10 @@ class TrackPainter {
   TrackPainter() : TrackPainter(Style{}) {}
   explicit TrackPainter(const Style& style) : style_(style) {}
 
+  /// Lines are painted as this camera shows them: along the curve into which its lens bends them. nullptr, as
+  /// at first: straight.
+  void setCamera(std::shared_ptr<const CameraModel> camera);
+
   /// Paints `frame` over its image `gray` (8-bit, one channel) into `bgr`, which is reallocated unless it is
   /// an 8-bit image of three channels and the same size already. Throws std::invalid_argument when `gray` is
   /// not 8-bit gray or not of the frame's size.
@@ -47,6 +53,9 @@ class TrackPainter {
   void drawTrail(const Trail& trail, const cv::Scalar& colour, cv::Mat& bgr) const;
 
   Style style_;
+  std::shared_ptr<const CameraModel> camera_;
+  cv::Size lens_size_;  ///< of the images that lens_ is for [px]
+  LensBend lens_;       ///< of camera_
   std::uint32_t epoch_{0};
   std::uint64_t paintings_{0};
   std::unordered_map<std::uint64_t, Trail> trails_;

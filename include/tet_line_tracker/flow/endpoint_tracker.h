@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 
@@ -44,6 +45,17 @@ struct EndpointFlow {
   float residual{0.0F};
 };
 
+/// Places that a line may have moved to, along the way that the movement of the camera leaves open.
+struct LinePath {
+  static constexpr std::size_t kMaxSteps = 32;
+  /// Of the line, if both its ends were as far along the way. An end may be at one step and the other at
+  /// another.
+  std::array<LineSegment, kMaxSteps> chords;
+  std::size_t count{0};
+  std::size_t expected{0};  ///< step that is most likely
+  LineBend bend;
+};
+
 /// TET, Algorithm 1 of the paper: follows both endpoints of a segment from one image to the next by iterative
 /// Lucas-Kanade flow over the pyramid, coarse to fine. Derived classes say how the two movement vectors are
 /// estimated on one level. Const and thread-safe once made.
@@ -58,6 +70,12 @@ class EndpointTracker {
   /// std::invalid_argument when `patches` were extracted with another window size.
   EndpointFlow track(const LineTemplate& patches, const ImagePyramid& second,
                      const LineCurve& expected) const;
+
+  /// The places on `path` at which the patches fit best on the coarsest level, best first; at most
+  /// best.size(). Returns how many there are.
+  static constexpr std::size_t kMaxStarts = 3;
+  std::size_t search(const LineTemplate& patches, const ImagePyramid& second, const LinePath& path,
+                     std::array<LineSegment, kMaxStarts>& best) const;
 
  protected:
   using Status = EndpointFlow::Status;

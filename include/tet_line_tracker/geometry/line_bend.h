@@ -11,19 +11,21 @@
 namespace tet_line_tracker {
 
 /// How far the image of a straight line in space leaves its chord, because the lens bends it: at fraction s
-/// of the way from start to end, s (1 - s) (c0 + c1 u + ... + c6 u^6) px along the chord's normal(), with u =
-/// 2 s - 1. All 0: the line is straight in the image.
+/// of the way from start to end, s (1 - s) (c0 + c1 u + ... + c10 u^10) px along the chord's normal(), with u
+/// = 2 s - 1. All 0: the line is straight in the image.
 struct LineBend {
-  std::array<float, 7> c{};  ///< [px]
+  static constexpr std::size_t kTerms = 11;
+  std::array<float, kTerms> c{};  ///< [px]
+  std::size_t terms{kTerms};      ///< those from here on are 0
 
-  bool isStraight() const { return c == std::array<float, 7>{}; }
+  bool isStraight() const { return c == std::array<float, kTerms>{}; }
   /// Distance of the curve from the chord at `fraction` [px].
   float offset(float fraction) const { return fraction * (1.0F - fraction) * factor(2.0F * fraction - 1.0F); }
   /// Derivative of offset() by the fraction [px].
   float slope(float fraction) const {
     const float u = 2.0F * fraction - 1.0F;
     float factor_slope = 0.0F;
-    for (std::size_t k = c.size() - 1; k > 0; --k)
+    for (std::size_t k = terms - 1; k > 0; --k)
       factor_slope = factor_slope * u + 2.0F * static_cast<float>(k) * c[k];
     return -u * factor(u) + fraction * (1.0F - fraction) * factor_slope;
   }
@@ -31,7 +33,7 @@ struct LineBend {
  private:
   float factor(float u) const {
     float sum = 0.0F;
-    for (std::size_t k = c.size(); k-- > 0;) sum = sum * u + c[k];
+    for (std::size_t k = terms; k-- > 0;) sum = sum * u + c[k];
     return sum;
   }
 };

@@ -36,7 +36,8 @@ struct LineView {
   Eigen::Vector3d centre;     ///< of the camera [m]
   Eigen::Vector3d start_ray;  ///< unit vector from the camera to the start, in the axes of the world
   Eigen::Vector3d end_ray;
-  double sigma;     ///< standard deviation of the rays across the line [rad]
+  /// Times the angles of both rays across the line: independent, with a standard deviation of 1 [1/rad].
+  Eigen::Matrix2d whitening;
   double px_angle;  ///< angle of one pixel at this place of the image [rad]
 
   /// Unit normal of the plane through camera and line.
@@ -46,15 +47,15 @@ struct LineView {
 /// A line in space as several views see it.
 struct LineEstimate {
   PlueckerLine line;
-  Eigen::Matrix4d covariance;    ///< of the step of PlueckerLine::moved(), from the sigmas of the views
+  Eigen::Matrix4d covariance;    ///< of the step of PlueckerLine::moved(), from the covariances of the views
   std::vector<double> error_px;  ///< of each view: mean angle between its two rays and the line's plane [px]
 };
 
 /// The line in which two viewing planes meet; nothing when the cameras see the same plane.
 std::optional<PlueckerLine> intersect(const LineView& a, const LineView& b);
 
-/// The line that fits all views best, weighted by their sigmas with a Huber loss, by Levenberg-Marquardt from
-/// `initial`. Precondition: at least two views. Nothing when the views do not determine a line.
+/// The line that fits all views best, weighted by their covariances with a Huber loss, by Levenberg-Marquardt
+/// from `initial`. Precondition: at least two views. Nothing when the views do not determine a line.
 std::optional<LineEstimate> refine(const PlueckerLine& initial, const std::vector<LineView>& views);
 
 }  // namespace tet_line_tracker

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -14,15 +15,29 @@
 
 namespace tet_line_tracker {
 
-/// How the camera is expected to have turned from the image before to this one.
+/// An inverse depth (1 / z of the optical frame), in units of 1 / the length of the camera's last step.
+struct DepthGuess {
+  double inverse{0.0};
+  double variance{0.0};
+};
+
+/// How the camera is expected to have moved from the image before to this one.
 struct MotionPrediction {
   enum class Source { kNone, kImu, kImage };
   Source source{Source::kNone};
   /// Takes directions in the camera's optical frame at the image before to the same directions at this one.
   Eigen::Matrix3d rotation{Eigen::Matrix3d::Identity()};
+  /// How points move in the optical frame while the camera takes its step: a unit vector, zero where it is
+  /// not known. A point of the image before on the ray h (z = 1) with the inverse depth d appears on rotation
+  /// * h + d * translation.
+  Eigen::Vector3d translation{Eigen::Vector3d::Zero()};
+  double step_ratio{0.0};          ///< length of this step over that of the step before; 0: not known
+  bool confirmed{false};           ///< the rotation is that of corners too
+  std::size_t inliers{0};          ///< corners that agree with the translation
   double angle() const;            ///< of the rotation [rad]
   const char* sourceName() const;  ///< none, imu or image
-  bool used() const { return source != Source::kNone; }
+  bool used() const { return source != Source::kNone || translates(); }
+  bool translates() const { return !translation.isZero(); }
 };
 
 /// Predicts where lines are in the next image from the rotation of the camera, which moves far and near
@@ -48,6 +63,10 @@ class MotionPrior {
   /// Bias of the gyroscope as learned from the images so far, in the camera's optical frame [rad/s].
   Eigen::Vector3d gyroBias() const;
 
+  /// By how much the IMU's stamps are ahead of the images' [s]: what happens at stamp t of an image has the
+  /// IMU stamp t + imuTimeOffset(). As the parameter says, or as estimated so far.
+  double imuTimeOffset() const;
+
   /// Forgets the image before; the next predict() gives no motion.
   void reset();
 
@@ -58,6 +77,18 @@ class MotionPrior {
   /// it. `start_normalized`, `end_normalized`: its endpoints on z = 1, NaN where not known.
   LineSegment apply(const MotionPrediction& prediction, const LineSegment& segment,
                     const Eigen::Vector2d& start_normalized, const Eigen::Vector2d& end_normalized) const;
+
+  /// The same with the movement by the translation, where that is known: `inverse_depths` of start and end in
+  /// the image before, in units of 1 / this step.
+  LineSegment apply(const MotionPrediction& prediction, const LineSegment& segment,
+                    const Eigen::Vector2d& start_normalized, const Eigen::Vector2d& end_normalized,
+                    const Eigen::Vector2d& inverse_depths) const;
+
+  /// Of the camera, or of the pinhole assumed [px]; 1 before the first image.
+  double focal() const;
+
+  /// Inverse depth near a pixel of the image before, by what moved with it there, in units of 1 / this step.
+  std::optional<DepthGuess> depthNear(const Eigen::Vector2f& pixel) const;
 
   /// Pyramid levels that predict() wants to see.
   static constexpr int kPyramidLevels = 5;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -31,6 +32,11 @@ struct MotionPriorParameters {
   /// none, image, imu (image where its samples are missing), auto (image also where the images contradict the
   /// imu)
   std::string prior{"auto"};
+  /// the translation of the camera and the depth of lines predict their parallax; needs a calibration
+  bool ego_motion{true};
+  /// t_imu - t_image [s], -0.5..0.5: what happens at stamp t of an image has the IMU stamp t + offset (as
+  /// Kalibr's timeshift_cam_imu and VINS's td); or auto: estimated
+  std::string imu_time_offset{"0"};
   bool predict_parallax{true};  ///< the movement that rotation does not explain goes on as in the last image
 };
 
@@ -47,6 +53,8 @@ struct PlausibilityParameters {
   double max_length_ratio{1.5};  ///< of the length to the expected one, or its inverse, 1.01..10
   double max_edge_offset{1.0};   ///< of the edge from where the flow puts the line, beyond what is usual in
                                  ///< the image, 0.1..10 [px]
+  bool check_depth{true};        ///< lines are lost that would lie behind the camera or jump in depth; false
+                                 ///< keeps moving objects
 };
 
 /// Which segments are worth tracking, and when to detect new ones.
@@ -59,7 +67,8 @@ struct DetectionParameters {
   double redetect_ratio{0.9};    ///< joint: detect again when the number of lines or their coverage of
                                  ///< the image falls below this ratio to that after the last detection, 0..1
   int detection_interval{3};     ///< joint: images from one detection to the next at least, 1..1000
-  double min_detection_support{0.8};  ///< joint: share of a new line that must lie on an edge, 0..1
+  double min_detection_support{0.8};  ///< joint: share of a new line that must lie on an edge, 0..1; clear
+                                      ///< edges may have a quarter of the gaps
 };
 
 /// When an image continues a stream of images and when it starts another.
@@ -78,6 +87,9 @@ struct LineTrackerParameters {
   DetectionParameters detection;
   StreamParameters stream;
 };
+
+/// The offset that imu_time_offset gives [s]; nothing for auto, and for what check() refuses.
+std::optional<double> givenImuTimeOffset(const MotionPriorParameters& parameters);
 
 /// Entries bound to the fields of `parameters`, which must outlive the table.
 ParameterTable tableOf(LineTrackerParameters& parameters);

@@ -41,6 +41,10 @@ class LineRefiner {
   /// on fewer than four samples it has none.
   EdgeFit fit(const cv::Mat& gray, const LineCurve& line, float contrast) const;
 
+  /// How far the edge that ends at the start of `ahead` goes on along it, from 0 to its length [px]. Pieces
+  /// without an edge are bridged up to `max_gap` px, when the edge behind is twice as long.
+  float reachOf(const cv::Mat& gray, const LineCurve& ahead, float contrast, float max_gap) const;
+
  private:
   LineRefinerParameters parameters_;
 };

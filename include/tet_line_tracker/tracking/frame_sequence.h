@@ -35,5 +35,7 @@ class FrameSequence {
 
 /// Sets the normalised endpoints of all lines; NaN where `camera` is nullptr or cannot normalise a pixel.
 void normalizeEndpoints(const CameraModel* camera, std::vector<TrackedLine>& lines);
+/// The same for the lines alone whose ends are not normalised.
+void normalizeMissingEndpoints(const CameraModel* camera, std::vector<TrackedLine>& lines);
 
 }  // namespace tet_line_tracker

@@ -36,6 +36,12 @@ struct TrackedLine {
   /// Mean absolute gray difference between the patches of the image before and their match in this one, after
   /// the flow and before the edge re-fit, 0..1; NaN: detected here
   float residual{std::numeric_limits<float>::quiet_NaN()};
+
+  /// The ends have moved: they are to be normalised again.
+  void forgetNormalized() {
+    start_normalized.setConstant(std::numeric_limits<double>::quiet_NaN());
+    end_normalized = start_normalized;
+  }
 };
 
 /// Why a track was lost, in the order in which the tracker looks; every lost track has one reason.
@@ -49,6 +55,7 @@ enum class LossReason {
   kShort,        ///< shorter than min_length
   kFieldOfView,  ///< left the part of the image that can be normalised
   kMask,         ///< entered the masked area
+  kDepth,        ///< would lie behind the camera or jump in depth, by how it moved
   kEdgeJump,     ///< its edge lies farther from where the flow ended than is usual in the image
   kDuplicate,    ///< lies on the edge of an older track
   kCount
@@ -65,8 +72,12 @@ struct FrameStatistics {
   std::uint32_t lines_left_out{0};  ///< the same, but less than min_length was left: lost, or not added
   std::array<std::uint32_t, static_cast<std::size_t>(LossReason::kCount)> lost{};  ///< by LossReason
 
-  std::string prior{"none"};   ///< motion prior that was used
-  float prior_rotation{0.0F};  ///< angle of the predicted rotation [rad]
+  std::string prior{"none"};    ///< motion prior that was used
+  float prior_rotation{0.0F};   ///< angle of the predicted rotation [rad]
+  double imu_time_offset{0.0};  ///< t_imu - t_image in use, given or estimated [s]
+  /// How points move in the optical frame by the translation of the camera: unit vector, zero where not known
+  std::array<float, 3> translation{};
+  std::uint32_t translation_inliers{0};  ///< corners that agree with it
 
   std::uint32_t dropped_late{0}, dropped_duplicate{0}, dropped_zero{0};  ///< images of this epoch
 

@@ -34,9 +34,13 @@ class LineTracker : public LineFrontEnd {
   /// Rotation that takes directions in the IMU's frame to the camera's optical frame; needed for the prior
   /// `imu`.
   void setImuRotation(const Eigen::Matrix3d& camera_from_imu);
-  /// Angular velocity in the IMU's frame [rad/s] at a stamp [ns]. Give those up to the stamp of an image, and
-  /// one after it, before the image.
+  /// Angular velocity in the IMU's frame [rad/s] at a stamp [ns]. Give those up to imuStamp() of an image,
+  /// and one after it, before the image.
   void addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3d& angular_velocity);
+
+  /// The IMU's stamp of what happens at a stamp of the images: later by the parameter imu_time_offset, or by
+  /// what is estimated so far [ns]. Up to it, and one after it, an image needs angular velocities.
+  std::int64_t imuStamp(std::int64_t image_stamp_ns) const;
 
   FrameResult process(const cv::Mat& gray, std::int64_t stamp_ns) override;
   std::size_t reset() override;

@@ -164,6 +164,7 @@ CalibrationFile fromKalibr(const Section& file, int index) {
   if (camera.has("T_cam_imu")) {
     result.camera_from_imu = toIsometry(camera.numbers("T_cam_imu", 16), camera.nameOf("T_cam_imu"));
   }
+  if (camera.has("timeshift_cam_imu")) result.imu_time_offset = camera.number("timeshift_cam_imu");
   return result;
 }
 
@@ -211,6 +212,7 @@ CalibrationFile fromCamodocal(const Section& file, int index) {
     throw std::runtime_error("model_type is \"" + model + "\"; known: PINHOLE, KANNALA_BRANDT, MEI");
   }
   result.camera_from_imu = vinsExtrinsics(file, index);
+  if (file.has("td")) result.imu_time_offset = file.number("td");
   return result;
 }
 

@@ -12,8 +12,13 @@ namespace {
 
 /// Where along a line the lens is asked: Chebyshev's nodes, at which a polynomial fits best.
 constexpr std::array<double, 3> kFewShares{0.0670, 0.5, 0.9330};
+constexpr std::array<double, 5> kSomeShares{0.0245, 0.2061, 0.5000, 0.7939, 0.9755};
 constexpr std::array<double, 7> kManyShares{0.0125, 0.1091, 0.2831, 0.5000, 0.7169, 0.8909, 0.9875};
-constexpr float kShort = 60.0F;  ///< up to here few are enough [px]
+constexpr std::array<double, LineBend::kTerms> kMostShares{0.0051, 0.0452, 0.1221, 0.2297, 0.3591, 0.5000,
+                                                           0.6409, 0.7703, 0.8779, 0.9548, 0.9949};
+constexpr float kShort = 60.0F;      ///< up to here few are enough [px]
+constexpr float kMiddling = 130.0F;  ///< up to here some are [px]
+constexpr float kLong = 250.0F;      ///< up to here many are [px]
 
 template <std::size_t kPoints>
 LineBend bendThrough(const CameraModel& camera, const std::array<double, kPoints>& shares,
@@ -47,6 +52,7 @@ LineBend bendThrough(const CameraModel& camera, const std::array<double, kPoints
   }
   LineBend bend;
   std::copy(c.begin(), c.end(), bend.c.begin());
+  bend.terms = kPoints;
   return bend;
 }
 
@@ -64,6 +70,10 @@ std::array<LineSegment, 6> longestLines(int width, int height) {
 LensBend::LensBend(std::shared_ptr<const CameraModel> camera, int width, int height)
     : camera_(std::move(camera)) {
   if (!camera_) return;
+  if (!camera_->bendsLines()) {
+    camera_.reset();
+    return;
+  }
   const Eigen::Vector2f centre(0.5F * static_cast<float>(width - 1), 0.5F * static_cast<float>(height - 1));
   for (const LineSegment& line : longestLines(width, height)) {
     // Wide lenses see no ray at their corners: nearer lines tell as well.
@@ -88,8 +98,22 @@ LineBend LensBend::between(const LineSegment& segment, const Eigen::Vector3d& st
   if (!camera_ || !(length > 1.0F)) return {};
   const Eigen::Vector3d from = start.normalized();
   const Eigen::Vector3d to = end.normalized();
-  return length < kShort ? bendThrough(*camera_, kFewShares, segment, from, to)
-                         : bendThrough(*camera_, kManyShares, segment, from, to);
+  if (length < kShort) return bendThrough(*camera_, kFewShares, segment, from, to);
+  if (length < kMiddling) return bendThrough(*camera_, kSomeShares, segment, from, to);
+  if (length < kLong) return bendThrough(*camera_, kManyShares, segment, from, to);
+  return bendThrough(*camera_, kMostShares, segment, from, to);
+}
+
+Eigen::Vector2f LensBend::beyond(const LineSegment& segment, float distance) const {
+  const float share = distance / segment.length();
+  const Eigen::Vector2f straight = segment.at(1.0F + share);
+  if (!camera_) return straight;
+  const std::optional<Eigen::Vector3d> start = camera_->unproject(segment.start.cast<double>());
+  const std::optional<Eigen::Vector3d> end = camera_->unproject(segment.end.cast<double>());
+  if (!start || !end) return straight;
+  const std::optional<Eigen::Vector2d> pixel =
+      camera_->project(*end + static_cast<double>(share) * (*end - *start));
+  return pixel ? Eigen::Vector2f(pixel->cast<float>()) : straight;
 }
 
 }  // namespace tet_line_tracker

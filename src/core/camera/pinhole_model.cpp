@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <stdexcept>
+#include <vector>
 
 #include "camera/camera_models.h"
 #include "camera/plane_distortion.h"
@@ -53,6 +55,11 @@ class PinholeModel final : public CameraModel {
         distortion_.undistort({(pixel.x() - c.cx) / c.fx, (pixel.y() - c.cy) / c.fy});
     if (!ideal) return std::nullopt;
     return Eigen::Vector3d(ideal->x(), ideal->y(), 1.0).normalized();
+  }
+
+  bool bendsLines() const override {
+    const std::vector<double>& d = calibration().distortion;
+    return std::any_of(d.begin(), d.end(), [](double coefficient) { return coefficient != 0.0; });
   }
 
  private:

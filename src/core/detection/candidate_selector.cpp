@@ -46,7 +46,9 @@ const LineSegment* CandidateSelector::next() {
     Entry best = heap_.back();
     heap_.pop_back();
     best.score = scoreOf((*candidates_)[best.candidate]);
-    if (heap_.empty() || !(best < heap_.front())) return &(*candidates_)[best.candidate];
+    if (heap_.empty() || !(best < heap_.front())) {
+      return best.score < kMinScore ? nullptr : &(*candidates_)[best.candidate];
+    }
     heap_.push_back(best);
     std::push_heap(heap_.begin(), heap_.end());
   }

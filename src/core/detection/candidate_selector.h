@@ -20,7 +20,11 @@ class CandidateSelector {
   /// Fills the cells of a line that is tracked or was chosen.
   void add(const LineSegment& line);
 
-  /// The candidate with the highest score that next() has not returned yet; nullptr when none is left.
+  /// A candidate with a lower score adds nothing: its cells are full of lines [cell sides].
+  static constexpr float kMinScore = 0.15F;
+
+  /// The candidate with the highest score that next() has not returned yet; nullptr when none is left with
+  /// kMinScore.
   const LineSegment* next();
 
  private:

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <opencv2/imgproc.hpp>
 
@@ -46,11 +48,25 @@ void drawText(const std::string& text, cv::Point origin, double size, const cv::
   cv::putText(bgr, text, origin, cv::FONT_HERSHEY_SIMPLEX, scale, colour, thickness(1, bgr), cv::LINE_AA);
 }
 
-void drawLine(const LineSegment& segment, const cv::Scalar& colour, cv::Mat& bgr) {
-  const cv::Point start = fixedPoint(segment.start);
-  const cv::Point end = fixedPoint(segment.end);
-  cv::line(bgr, start, end, cv::Scalar::all(20), thickness(3.2, bgr), cv::LINE_AA, kShift);
-  cv::line(bgr, start, end, colour, thickness(1.6, bgr), cv::LINE_AA, kShift);
+/// The line as pieces so short that the curve leaves them by less than a fixed-point step.
+std::vector<cv::Point> pointsOf(const LineCurve& line) {
+  constexpr float kPiece = 8.0F;  // [px]
+  const float length = line.bend.isStraight() ? 0.0F : line.chord.length();
+  const int pieces = 1 + static_cast<int>(clampOrLow(length / kPiece, 0.0F, 1e3F));
+  std::vector<cv::Point> points{fixedPoint(line.chord.start)};
+  for (int i = 1; i < pieces; ++i) {
+    points.push_back(fixedPoint(line.at(static_cast<float>(i) / static_cast<float>(pieces))));
+  }
+  points.push_back(fixedPoint(line.chord.end));
+  return points;
+}
+
+void drawLine(const LineCurve& line, const cv::Scalar& colour, cv::Mat& bgr) {
+  const std::vector<cv::Point> points = pointsOf(line);
+  cv::polylines(bgr, points, false, cv::Scalar::all(20), thickness(3.2, bgr), cv::LINE_AA, kShift);
+  cv::polylines(bgr, points, false, colour, thickness(1.6, bgr), cv::LINE_AA, kShift);
+  const cv::Point& start = points.front();
+  const cv::Point& end = points.back();
   // A full dot at the start and a ring at the end: the roles of the endpoints can be seen to stay.
   const int radius = cvRound(2.4 * drawingScale(bgr) * (1 << kShift));
   cv::circle(bgr, start, radius, colour, cv::FILLED, cv::LINE_AA, kShift);
@@ -59,14 +75,14 @@ void drawLine(const LineSegment& segment, const cv::Scalar& colour, cv::Mat& bgr
 }
 
 /// Beside the middle of the line, on its left.
-void drawId(const TrackedLine& line, const cv::Scalar& colour, cv::Mat& bgr) {
-  const std::string text = std::to_string(line.id);
+void drawId(std::uint64_t id, const LineCurve& line, const cv::Scalar& colour, cv::Mat& bgr) {
+  const std::string text = std::to_string(id);
   const double size = 0.33;
   const cv::Size extent =
       cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size * drawingScale(bgr), 1, nullptr);
   const float away = 0.5F * std::hypot(static_cast<float>(extent.width), static_cast<float>(extent.height)) +
                      3.0F * static_cast<float>(drawingScale(bgr));
-  const Eigen::Vector2f centre = line.segment.middle() + away * line.segment.normal();
+  const Eigen::Vector2f centre = line.at(0.5F) + away * line.chord.normal();
   drawText(text,
            {cvRound(clampOrLow(centre.x(), -1e6F, 1e6F)) - extent.width / 2,
             cvRound(clampOrLow(centre.y(), -1e6F, 1e6F)) + extent.height / 2},
@@ -120,6 +136,12 @@ std::array<float, 3> colourOfAge(std::uint32_t age) {
   return colour;
 }
 
+void TrackPainter::setCamera(std::shared_ptr<const CameraModel> camera) {
+  if (camera == camera_) return;
+  camera_ = std::move(camera);
+  lens_size_ = cv::Size();
+}
+
 void TrackPainter::paint(const cv::Mat& gray, const LineFrame& frame, cv::Mat& bgr) {
   if (gray.type() != CV_8UC1 || gray.cols != frame.width || gray.rows != frame.height) {
     throw std::invalid_argument("the painted image is " + std::to_string(gray.cols) + "x" +
@@ -128,13 +150,19 @@ void TrackPainter::paint(const cv::Mat& gray, const LineFrame& frame, cv::Mat& b
   }
   cv::cvtColor(gray, bgr, cv::COLOR_GRAY2BGR);
   follow(frame);
+  if (lens_size_ != gray.size()) lens_ = LensBend(camera_, gray.cols, gray.rows);
+  lens_size_ = gray.size();
   for (const TrackedLine& line : frame.lines) {
     const auto trail = trails_.find(line.id);
     if (trail != trails_.end()) drawTrail(trail->second, bgrOfAge(line.age), bgr);
   }
-  for (const TrackedLine& line : frame.lines) drawLine(line.segment, bgrOfAge(line.age), bgr);
+  for (const TrackedLine& line : frame.lines) {
+    drawLine(lens_.curve(line.segment), bgrOfAge(line.age), bgr);
+  }
   if (style_.ids) {
-    for (const TrackedLine& line : frame.lines) drawId(line, cv::Scalar::all(255), bgr);
+    for (const TrackedLine& line : frame.lines) {
+      drawId(line.id, lens_.curve(line.segment), cv::Scalar::all(255), bgr);
+    }
   }
   if (style_.scale) drawScale(frame, bgr);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "flow/patch_flow.h"
+#include "flow/path_search.h"
 #include "geometry/clamp.h"
 #include "image/patch_reader.h"
 
@@ -104,6 +105,15 @@ EndpointFlow EndpointTracker::track(const LineTemplate& patches, const ImagePyra
     flow.segment = {at_level.chord.start / scale, at_level.chord.end / scale};
   }
   return flow;
+}
+
+std::size_t EndpointTracker::search(const LineTemplate& patches, const ImagePyramid& second,
+                                    const LinePath& path, std::array<LineSegment, kMaxStarts>& best) const {
+  if (!patches.content_ || path.count == 0) return 0;
+  const LineTemplate::Content& content = *patches.content_;
+  const int level = std::min(second.levels(), static_cast<int>(content.levels.size())) - 1;
+  return searchPath(content.levels[static_cast<std::size_t>(level)], content.shape, second.level(level),
+                    ImagePyramid::scale(level), path, best);
 }
 
 }  // namespace tet_line_tracker

@@ -2,7 +2,7 @@
 
 #include <bitset>
 
-#include "tet_line_tracker/geometry/line_segment.h"
+#include "tet_line_tracker/geometry/line_bend.h"
 
 namespace tet_line_tracker {
 
@@ -13,7 +13,8 @@ class CoverageGrid {
   CoverageGrid(int width, int height)
       : width_(static_cast<float>(width)), height_(static_cast<float>(height)) {}
 
-  void add(const LineSegment& line);
+  /// Along the curve, where the lens bends the line.
+  void add(const LineCurve& line);
   /// Share of the cells that are crossed, 0..1.
   float coverage() const;
 

@@ -22,7 +22,6 @@ bool areDuplicates(const LineCurve& a, const LineCurve& b, const DuplicateCriter
   const float dot = u.dot(v);
   const float cross = u.x() * v.y() - u.y() * v.x();
   if (dot <= 0.0F) return false;
-  // The cheap test first: nearly all pairs fail it.
   if (longer.bend.isStraight()) {
     if (std::abs(cross) > criteria.max_tangent * dot) return false;
   } else {
@@ -40,6 +39,7 @@ bool areDuplicates(const LineCurve& a, const LineCurve& b, const DuplicateCriter
 }
 
 void SegmentIndex::clear() {
+  all_straight_ = true;
   lines_.clear();
   next_.clear();
   heads_.fill(kNone);
@@ -50,13 +50,22 @@ void SegmentIndex::add(const LineCurve& line) {
   next_.push_back(head);
   head = static_cast<int>(lines_.size());
   lines_.push_back(line);
+  all_straight_ = all_straight_ && line.bend.isStraight();
 }
 
 bool SegmentIndex::containsDuplicateOf(const LineCurve& line) const {
   const int sector = sectorOf(line.chord);
+  const Eigen::Vector2f direction = line.chord.end - line.chord.start;
+  const bool straight = all_straight_ && line.bend.isStraight();
+  const float max_tangent = criteria_.max_tangent + (straight ? 0.0F : kMaxBendSlope);
   for (const int near : {sector, (sector + 1) % kSectors, (sector + kSectors - 1) % kSectors}) {
     for (int i = heads_[static_cast<std::size_t>(near)]; i != kNone; i = next_[static_cast<std::size_t>(i)]) {
-      if (areDuplicates(line, lines_[static_cast<std::size_t>(i)], criteria_)) return true;
+      // The cheap test first: nearly all pairs fail it.
+      const LineCurve& other = lines_[static_cast<std::size_t>(i)];
+      const Eigen::Vector2f way = other.chord.end - other.chord.start;
+      const float cross = direction.x() * way.y() - direction.y() * way.x();
+      if (std::abs(cross) > max_tangent * direction.dot(way)) continue;
+      if (areDuplicates(line, other, criteria_)) return true;
     }
   }
   return false;

@@ -35,6 +35,7 @@ class SegmentIndex {
   static int sectorOf(const LineSegment& segment);
 
   DuplicateCriteria criteria_;
+  bool all_straight_{true};
   std::vector<LineCurve> lines_;
   std::vector<int> next_;            ///< of each segment, in the same sector
   std::array<int, kSectors> heads_;  ///< last segment of each sector of directions

@@ -6,7 +6,9 @@
 #include <string>
 #include <utility>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 namespace tet_line_tracker {
 namespace {
@@ -90,6 +92,24 @@ double sigmaAt(const Eigen::Vector3d& point, const LineEstimate& estimate) {
   return std::sqrt(std::max(0.0, eigen.eigenvalues().maxCoeff()));
 }
 
+/// Covariance of the distances of start and end across the line [px^2], as far as the tracker knew it.
+Eigen::Matrix2d covarianceOf(const TrackedLine& line, const LineMapperParameters& parameters) {
+  const auto [start, both, end] = line.covariance_px;
+  constexpr double kExact = 1e-6;  // [px^2]
+  const float spread = start * end - both * both;
+  Eigen::Matrix2d covariance;
+  // Written so that NaN falls back.
+  if (start > 0.0F && end > 0.0F && spread >= 0.0F && std::isfinite(start + end)) {
+    covariance << start, both, both, end;
+  } else if (std::isfinite(line.sigma_px)) {
+    covariance = std::pow(static_cast<double>(line.sigma_px), 2) * Eigen::Matrix2d::Identity();
+  } else {
+    return std::pow(parameters.default_sigma, 2) * Eigen::Matrix2d::Identity();
+  }
+  covariance.diagonal().array() += std::pow(parameters.sigma_floor, 2) + kExact;
+  return covariance;
+}
+
 std::optional<LineView> viewOf(const TrackedLine& line, const Eigen::Isometry3d& world_from_camera,
                                const LineMapperParameters& parameters) {
   if (!line.start_normalized.allFinite() || !line.end_normalized.allFinite()) return std::nullopt;
@@ -98,15 +118,13 @@ std::optional<LineView> viewOf(const TrackedLine& line, const Eigen::Isometry3d&
   const double angle = std::atan2(start.cross(end).norm(), start.dot(end));
   const double length = static_cast<double>(line.segment.length());
   if (!(angle > 1e-6) || !(length > 0.0)) return std::nullopt;
-  const bool has_sigma = std::isfinite(line.sigma_px);
-  const double sigma_px = has_sigma ? std::hypot(static_cast<double>(line.sigma_px), parameters.sigma_floor)
-                                    : parameters.default_sigma;
   LineView view;
   view.centre = world_from_camera.translation();
   view.start_ray = world_from_camera.linear() * start;
   view.end_ray = world_from_camera.linear() * end;
   view.px_angle = angle / length;
-  view.sigma = std::max(sigma_px, 1e-3) * view.px_angle;
+  const Eigen::Matrix2d deviations = covarianceOf(line, parameters).llt().matrixL();
+  view.whitening = deviations.inverse() / view.px_angle;
   return view;
 }
 

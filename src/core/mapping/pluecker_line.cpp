@@ -28,7 +28,7 @@ OrthonormalLine toOrthonormal(const PlueckerLine& line) {
   return result;
 }
 
-/// Residuals and derivatives of one view: the angles between its rays and the plane of the line, over sigma.
+/// Residuals and derivatives of one view: the angles between its rays and the plane of the line, whitened.
 struct ViewResidual {
   Eigen::Vector2d value;
   Eigen::Matrix<double, 2, 4> jacobian;
@@ -49,10 +49,11 @@ ViewResidual computeResidual(const PlueckerLine& line, const LineView& view) {
   const Eigen::Vector3d* rays[2] = {&view.start_ray, &view.end_ray};
   for (int i = 0; i < 2; ++i) {
     const double along = rays[i]->dot(unit);
-    residual.value(i) = along / view.sigma;
-    residual.jacobian.row(i) =
-        (*rays[i] - along * unit).transpose() * normal_derivatives / (distance * view.sigma);
+    residual.value(i) = along;
+    residual.jacobian.row(i) = (*rays[i] - along * unit).transpose() * normal_derivatives / distance;
   }
+  residual.value = (view.whitening * residual.value).eval();
+  residual.jacobian = (view.whitening * residual.jacobian).eval();
   return residual;
 }
 
@@ -73,7 +74,8 @@ double computeCost(const PlueckerLine& line, const std::vector<LineView>& views)
   double cost = 0.0;
   for (const LineView& view : views) {
     const Eigen::Vector3d unit = line.planeThrough(view.centre).normalized();
-    cost += huber(Eigen::Vector2d(view.start_ray.dot(unit), view.end_ray.dot(unit)) / view.sigma).cost;
+    const Eigen::Vector2d angles(view.start_ray.dot(unit), view.end_ray.dot(unit));
+    cost += huber(view.whitening * angles).cost;
   }
   return cost;
 }

@@ -6,8 +6,10 @@
 
 #include "camera/camera_models.h"
 #include "geometry/so3.h"
+#include "motion/ego_motion.h"
 #include "motion/gyro_bias.h"
 #include "motion/gyro_integrator.h"
+#include "motion/imu_time_offset.h"
 #include "motion/rotation_aligner.h"
 
 namespace tet_line_tracker {
@@ -48,33 +50,60 @@ const char* MotionPrediction::sourceName() const {
 
 class MotionPrior::Implementation {
  public:
-  explicit Implementation(const MotionPriorParameters& parameters) : parameters_(parameters) {}
+  explicit Implementation(const MotionPriorParameters& parameters) : parameters_(parameters) {
+    if (const auto given = givenImuTimeOffset(parameters)) {
+      given_offset_s_ = *given;
+    } else {
+      estimated_offset_.emplace();
+    }
+  }
 
   void setCamera(std::shared_ptr<const CameraModel> camera) {
     if (camera == camera_) return;
+    ego_motion_.setCamera(camera);
     camera_ = std::move(camera);
     image_size_ = cv::Size();
   }
   void setImuRotation(const Eigen::Matrix3d& camera_from_imu) {
-    if (camera_from_imu_ && *camera_from_imu_ != camera_from_imu) gyro_bias_.reset();
+    if (camera_from_imu_ && *camera_from_imu_ != camera_from_imu) {
+      gyro_bias_.reset();
+      if (estimated_offset_) estimated_offset_->reset();
+    }
     camera_from_imu_ = camera_from_imu;
   }
   Eigen::Vector3d gyroBias() const { return -gyro_bias_.value().cast<double>(); }
   void addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3d& velocity) {
     gyro_.add(stamp_ns, velocity);
+    if (estimated_offset_) estimated_offset_->addAngularVelocity(stamp_ns, velocity);
   }
+  double imuTimeOffset() const { return estimated_offset_ ? estimated_offset_->value() : given_offset_s_; }
   void reset() {
     coarse_.clearTemplate();
     fine_.clearTemplate();
+    ego_motion_.reset();
     last_rotation_.setZero();
   }
   MotionPrediction predict(const ImagePyramid& pyramid, std::int64_t stamp_ns);
   LineSegment apply(const MotionPrediction& prediction, const LineSegment& segment,
-                    const Eigen::Vector2d& start_normalized, const Eigen::Vector2d& end_normalized) const;
+                    const Eigen::Vector2d& start_normalized, const Eigen::Vector2d& end_normalized,
+                    const Eigen::Vector2d& inverse_depths) const;
+  std::optional<DepthGuess> depthNear(const Eigen::Vector2f& pixel) const {
+    return ego_motion_.depthNear(pixel);
+  }
+  double focal() const {
+    return lens_ ? 0.5 * (lens_->calibration().fx + std::abs(lens_->calibration().fy)) : 1.0;
+  }
 
  private:
+  std::int64_t imuStamp(std::int64_t image_stamp_ns) const {
+    return image_stamp_ns + std::llround(1e9 * imuTimeOffset());
+  }
   void prepareCamera(const ImagePyramid& pyramid);
   std::optional<Eigen::Vector3f> integrateGyro(std::int64_t stamp_ns) const;
+  bool estimatesEgoMotion() const { return parameters_.ego_motion && camera_ != nullptr; }
+  /// `seen`: rotation by the alignment of the images alone.
+  void addEgoMotion(const ImagePyramid& pyramid, std::int64_t stamp_ns,
+                    const std::optional<Eigen::Vector3f>& seen, MotionPrediction& prediction);
   Eigen::Vector3f alignImages(const ImagePyramid& pyramid);
   /// Rotation from what the gyroscope `measured` and what the images alone have `seen`, whichever fits
   /// better; nothing when they contradict each other. Learns the bias.
@@ -88,8 +117,11 @@ class MotionPrior::Implementation {
   cv::Size image_size_;                      ///< that the aligners know
   std::optional<Eigen::Matrix3d> camera_from_imu_;
   GyroIntegrator gyro_;
+  double given_offset_s_{0.0};
+  std::optional<ImuTimeOffset> estimated_offset_;  ///< when the parameter is auto
   RotationAligner coarse_{kCoarseLevel};
   RotationAligner fine_{kFineLevel};
+  EgoMotionTracker ego_motion_;
   GyroBias gyro_bias_;  ///< of directions in the camera's optical frame, which rotate against the camera
   std::int64_t last_stamp_ns_{0};
   Eigen::Vector3f last_rotation_{Eigen::Vector3f::Zero()};
@@ -114,7 +146,7 @@ void MotionPrior::Implementation::prepareCamera(const ImagePyramid& pyramid) {
 std::optional<Eigen::Vector3f> MotionPrior::Implementation::integrateGyro(std::int64_t stamp_ns) const {
   if (!camera_from_imu_ || (parameters_.prior != "imu" && parameters_.prior != "auto")) return std::nullopt;
   const std::optional<Eigen::Matrix3d> rotation =
-      gyro_.rotation(last_stamp_ns_, stamp_ns, Eigen::Vector3d::Zero());
+      gyro_.rotation(imuStamp(last_stamp_ns_), imuStamp(stamp_ns), Eigen::Vector3d::Zero());
   if (!rotation) return std::nullopt;
   return so3Log(*camera_from_imu_ * *rotation * camera_from_imu_->transpose()).cast<float>();
 }
@@ -141,7 +173,7 @@ std::optional<Eigen::Vector3f> MotionPrior::Implementation::fuse(RotationAligner
     const Eigen::Vector3f led = aligner.align(pyramid, corrected, kFineIterations);
     if (!seen.allFinite() || aligner.cost(pyramid, led) < kMinLead * aligner.cost(pyramid, seen)) seen = led;
   }
-  gyro_bias_.learn(measured, seen, interval_s);
+  if (!estimatesEgoMotion()) gyro_bias_.learn(measured, seen, interval_s);
   if (!(cost < max_cost) && !((seen - corrected).norm() < kAgreement)) return std::nullopt;
   const bool leads = !seen.allFinite() || cost < kMinLead * aligner.cost(pyramid, seen);
   return leads ? corrected : seen;
@@ -151,17 +183,23 @@ MotionPrediction MotionPrior::Implementation::predict(const ImagePyramid& pyrami
   MotionPrediction prediction;
   if (parameters_.prior == "none") return prediction;
   prepareCamera(pyramid);
+  std::optional<Eigen::Vector3f> aligned;
   RotationAligner& aligner = fine_.hasTemplate() ? fine_ : coarse_;
   if (aligner.hasTemplate()) {
     const float max_cost = kMinImprovement * aligner.cost(pyramid, Eigen::Vector3f::Zero());
     Eigen::Vector3f rotation = Eigen::Vector3f::Zero();
     const Eigen::Vector3f seen = alignImages(pyramid);
+    aligned = seen;
     const std::optional<Eigen::Vector3f> measured = integrateGyro(stamp_ns);
     const std::optional<Eigen::Vector3f> fused =
         measured ? fuse(aligner, pyramid, *measured, seen, max_cost,
                         1e-9F * static_cast<float>(stamp_ns - last_stamp_ns_))
                  : std::nullopt;
-    if (fused && fused->allFinite() && aligner.cost(pyramid, *fused) < max_cost) {
+    if (measured && estimatesEgoMotion() && gyro_bias_.isTrusted()) {
+      // Images align by what moves with the most of them, and large parallax leads them astray.
+      prediction.source = MotionPrediction::Source::kImu;
+      rotation = *measured - 1e-9F * static_cast<float>(stamp_ns - last_stamp_ns_) * gyro_bias_.value();
+    } else if (fused && fused->allFinite() && aligner.cost(pyramid, *fused) < max_cost) {
       prediction.source = MotionPrediction::Source::kImu;
       rotation = *fused;
     } else if ((!measured || parameters_.prior == "auto") && seen.allFinite() &&
@@ -171,27 +209,65 @@ MotionPrediction MotionPrior::Implementation::predict(const ImagePyramid& pyrami
     }
     prediction.rotation = so3Exp(rotation.cast<double>()).toRotationMatrix();
     last_rotation_ = rotation;
+    if (estimated_offset_ && camera_from_imu_) {
+      estimated_offset_->addImageRotation(last_stamp_ns_, stamp_ns, seen.cast<double>(), *camera_from_imu_);
+    }
+  }
+  if (estimatesEgoMotion()) {
+    addEgoMotion(pyramid, stamp_ns, aligned, prediction);
+    last_rotation_ = so3Log(prediction.rotation).cast<float>();
   }
   coarse_.extractTemplate(pyramid);
   fine_.extractTemplate(pyramid);
-  gyro_.forgetBefore(stamp_ns);
+  // An estimate may still move back.
+  gyro_.forgetBefore(imuStamp(stamp_ns) - (estimated_offset_ ? GyroIntegrator::kMaxGapNs : 0));
   last_stamp_ns_ = stamp_ns;
   return prediction;
 }
 
+void MotionPrior::Implementation::addEgoMotion(const ImagePyramid& pyramid, std::int64_t stamp_ns,
+                                               const std::optional<Eigen::Vector3f>& seen,
+                                               MotionPrediction& prediction) {
+  const double interval_s = 1e-9 * static_cast<double>(stamp_ns - last_stamp_ns_);
+  const std::optional<Eigen::Vector3f> measured = integrateGyro(stamp_ns);
+  std::optional<EgoMotionTracker::Turn> turn;
+  if (measured) {
+    const Eigen::Vector3f corrected = *measured - static_cast<float>(interval_s) * gyro_bias_.value();
+    turn = EgoMotionTracker::Turn{so3Exp(corrected.cast<double>()).toRotationMatrix(),
+                                  interval_s * static_cast<double>(gyro_bias_.deviation()),
+                                  gyro_bias_.isTrusted()};
+  }
+  ego_motion_.update(pyramid, interval_s, turn, prediction);
+  if (!measured) return;
+  const auto interval = static_cast<float>(interval_s);
+  if (prediction.confirmed && (gyro_bias_.isTrusted() || !prediction.translation.isZero())) {
+    // The rotation that is left when translation has its part: parallax does not look like a bias.
+    gyro_bias_.learn(*measured, so3Log(prediction.rotation).cast<float>(), interval);
+  } else if (gyro_bias_.isTrusted()) {
+    gyro_bias_.doubt();
+  } else if (seen) {
+    // Where corners show no parallax, they were rotated by the gyroscope itself.
+    gyro_bias_.learn(*measured, *seen, interval);
+  }
+}
+
 LineSegment MotionPrior::Implementation::apply(const MotionPrediction& prediction, const LineSegment& segment,
                                                const Eigen::Vector2d& start_normalized,
-                                               const Eigen::Vector2d& end_normalized) const {
+                                               const Eigen::Vector2d& end_normalized,
+                                               const Eigen::Vector2d& inverse_depths) const {
   if (!lens_ || !prediction.used()) return segment;
-  const auto rotated = [&](const Eigen::Vector2f& point,
-                           const Eigen::Vector2d& normalized) -> std::optional<Eigen::Vector2d> {
-    if (normalized.allFinite()) return lens_->project(prediction.rotation * normalized.homogeneous());
+  const auto moved = [&](const Eigen::Vector2f& point, const Eigen::Vector2d& normalized,
+                         double inverse_depth) -> std::optional<Eigen::Vector2d> {
+    if (normalized.allFinite()) {
+      return lens_->project(prediction.rotation * normalized.homogeneous() +
+                            inverse_depth * prediction.translation);
+    }
     const std::optional<Eigen::Vector3d> ray = lens_->unproject(point.cast<double>());
     if (!ray) return std::nullopt;
     return lens_->project(prediction.rotation * *ray);
   };
-  const std::optional<Eigen::Vector2d> start = rotated(segment.start, start_normalized);
-  const std::optional<Eigen::Vector2d> end = rotated(segment.end, end_normalized);
+  const std::optional<Eigen::Vector2d> start = moved(segment.start, start_normalized, inverse_depths[0]);
+  const std::optional<Eigen::Vector2d> end = moved(segment.end, end_normalized, inverse_depths[1]);
   if (!start || !end) return segment;
   const LineSegment expected{start->cast<float>(), end->cast<float>()};
   return expected.start.allFinite() && expected.end.allFinite() ? expected : segment;
@@ -215,6 +291,9 @@ void MotionPrior::addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3
 Eigen::Vector3d MotionPrior::gyroBias() const {
   return implementation_->gyroBias();
 }
+double MotionPrior::imuTimeOffset() const {
+  return implementation_->imuTimeOffset();
+}
 void MotionPrior::reset() {
   implementation_->reset();
 }
@@ -224,7 +303,19 @@ MotionPrediction MotionPrior::predict(const ImagePyramid& pyramid, std::int64_t 
 LineSegment MotionPrior::apply(const MotionPrediction& prediction, const LineSegment& segment,
                                const Eigen::Vector2d& start_normalized,
                                const Eigen::Vector2d& end_normalized) const {
-  return implementation_->apply(prediction, segment, start_normalized, end_normalized);
+  return implementation_->apply(prediction, segment, start_normalized, end_normalized,
+                                Eigen::Vector2d::Zero());
+}
+LineSegment MotionPrior::apply(const MotionPrediction& prediction, const LineSegment& segment,
+                               const Eigen::Vector2d& start_normalized, const Eigen::Vector2d& end_normalized,
+                               const Eigen::Vector2d& inverse_depths) const {
+  return implementation_->apply(prediction, segment, start_normalized, end_normalized, inverse_depths);
+}
+double MotionPrior::focal() const {
+  return implementation_->focal();
+}
+std::optional<DepthGuess> MotionPrior::depthNear(const Eigen::Vector2f& pixel) const {
+  return implementation_->depthNear(pixel);
 }
 
 }  // namespace tet_line_tracker

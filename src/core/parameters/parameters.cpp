@@ -1,7 +1,12 @@
 #include "tet_line_tracker/parameters/parameters.h"
 
+#include <cmath>
+#include <cstdlib>
+
 namespace tet_line_tracker {
 namespace {
+
+constexpr double kMaxImuTimeOffset = 0.5;  // [s]
 
 ParameterTable tableOf(EndpointTrackerParameters& p) {
   ParameterTable table;
@@ -27,6 +32,13 @@ ParameterTable tableOf(MotionPriorParameters& p) {
   table.add("prior", p.prior, {"auto", "none", "imu", "image"},
             "Rotation by which endpoints are predicted; `imu`: from the image where IMU samples are missing; "
             "`auto`: also where the images contradict the IMU");
+  table.add(
+      "ego_motion", p.ego_motion,
+      "Estimate the translation of the camera and the depth of lines, which predict their parallax; needs "
+      "a calibration");
+  table.add("imu_time_offset", p.imu_time_offset, std::vector<std::string>{},
+            "Stamp of the IMU less that of the camera at the same moment [s], -0.5..0.5: Kalibr's "
+            "`timeshift_cam_imu`, VINS's `td`; `auto`: estimated from turns, up to 0.1 s");
   table.add("predict_parallax", p.predict_parallax,
             "Predict that the movement which the rotation does not explain goes on as in the last image");
   return table;
@@ -41,6 +53,10 @@ ParameterTable tableOf(PlausibilityParameters& p) {
   table.add("max_edge_offset", p.max_edge_offset, 0.1, 10.0, "px",
             "A line is lost whose edge is this much farther than is usual in the image from where the flow "
             "puts it");
+  table.add(
+      "check_depth", p.check_depth,
+      "A line is lost whose movement would put it behind the camera, or at a depth that jumps, while most "
+      "lines agree with `ego_motion`; false keeps the lines of moving objects");
   return table;
 }
 
@@ -67,7 +83,7 @@ ParameterTable tableOf(DetectionParameters& p) {
   table.add("detection_interval", p.detection_interval, 1, 1000, "",
             "Images from one run of the detector to the next at least");
   table.add("min_detection_support", p.min_detection_support, 0.0, 1.0, "",
-            "Share of a new line that must lie on an edge");
+            "Share of a new line that must lie on an edge; clear edges may have a quarter of the gaps");
   return table;
 }
 
@@ -95,6 +111,15 @@ ParameterTable tableOf(LineTrackerParameters& p) {
   return table;
 }
 
+std::optional<double> givenImuTimeOffset(const MotionPriorParameters& parameters) {
+  const std::string& text = parameters.imu_time_offset;
+  char* end = nullptr;
+  const double seconds = std::strtod(text.c_str(), &end);
+  // Written so that NaN fails.
+  if (text.empty() || *end != '\0' || !(std::abs(seconds) <= kMaxImuTimeOffset)) return std::nullopt;
+  return seconds;
+}
+
 std::vector<std::string> check(const EndpointTrackerParameters& parameters) {
   EndpointTrackerParameters copy = parameters;
   return tableOf(copy).check();
@@ -103,6 +128,12 @@ std::vector<std::string> check(const EndpointTrackerParameters& parameters) {
 std::vector<std::string> check(const LineTrackerParameters& parameters) {
   LineTrackerParameters copy = parameters;
   std::vector<std::string> broken = tableOf(copy).check();
+  if (parameters.motion.imu_time_offset != "auto" && !givenImuTimeOffset(parameters.motion)) {
+    broken.push_back(
+        "parameter imu_time_offset is " +
+        (parameters.motion.imu_time_offset.empty() ? "empty" : parameters.motion.imu_time_offset) +
+        ", needs auto or a number in -0.5..0.5 [s]");
+  }
   if (parameters.detection.min_lines > parameters.detection.max_lines) {
     broken.push_back("parameter min_lines is " + std::to_string(parameters.detection.min_lines) +
                      ", needs at most max_lines, which is " + std::to_string(parameters.detection.max_lines));

@@ -14,9 +14,15 @@ constexpr int kMinSamples = 6;
 constexpr float kSampleSpacing = 2.0F;     // along the line, more on long ones [px]
 constexpr float kOnEdge = 1.0F;            // a sample this near the fitted line lies on the edge [px]
 constexpr float kMinContrastShare = 0.3F;  // of the contrast of the edge before
-constexpr float kMinSlope = 0.8F;          // slower slopes are noise in any picture [gray / px]
-constexpr float kPeakShare = 0.3F;     // of the slope of the peak: what is under it does not pull its middle
-constexpr float kSigmaFloor = 0.025F;  // what sampling and rounding leave on a perfect edge [px]
+// What the edge must be where a line is to go on: clearly more than noise.
+constexpr float kOnEdgeAhead = 0.75F;   // [px]
+constexpr float kMinReachShare = 0.5F;  // of the contrast of the line
+constexpr float kMinReachSlope = 1.5F;  // [gray / px]
+constexpr float kMinSlope = 0.8F;       // slower slopes are noise in any picture [gray / px]
+constexpr float kPeakShare = 0.3F;      // of the slope of the peak: what is under it does not pull its middle
+constexpr float kSigmaFloor = 0.009F;   // what sampling and rounding leave on a perfect edge [px]
+constexpr float kCorrelation =
+    1.7F;  // variance of the fit over that of independent samples: neighbours err alike
 
 /// What profiles across the line found, from start to end; room for whole vectors.
 struct Samples {
@@ -65,16 +71,17 @@ class ProfileSampler {
     const std::size_t wanted = static_cast<std::size_t>(count);
     const float spacing = length_ / static_cast<float>(count);
     const bool bent = !bend_.isStraight();
+    std::array<float, Samples::kCapacity> crosses;
     for (std::size_t i = 0; i < wanted; ++i) {
       const float along = (static_cast<float>(i) + 0.5F) * spacing;
-      const int main = nearestPixel(start_main_ + along * main_per_along_);
-      float cross = start_cross_ + (static_cast<float>(main) - start_main_) * cross_per_main_;
+      mains_[i] = nearestPixel(start_main_ + along * main_per_along_);
+      crosses[i] = start_cross_ + (static_cast<float>(mains_[i]) - start_main_) * cross_per_main_;
       samples.places[i] = 2.0F * along / length_ - 1.0F;
-      if (bent) cross += bendAt(main, &samples.places[i]);
-      const int begin = nearestPixel(cross) - reach_ - 1;
-      mains_[i] = main;
-      begins_[i] = begin;
-      centres_[i] = cross - static_cast<float>(begin);
+    }
+    if (bent) moveToCurve(wanted, crosses, samples);
+    for (std::size_t i = 0; i < wanted; ++i) {
+      begins_[i] = nearestPixel(crosses[i]) - reach_ - 1;
+      centres_[i] = crosses[i] - static_cast<float>(begins_[i]);
     }
     // A straight line with both ends inside is all inside.
     std::size_t kept = wanted;
@@ -107,15 +114,36 @@ class ProfileSampler {
     return static_cast<int>(place + (static_cast<float>(kShift) + 0.5F)) - kShift;
   }
 
-  /// From the chord to the curve, along the profile at pixel `main` of the main axis [px]; sets the place of
-  /// that point along the line.
-  float bendAt(int main, float* place) const {
-    const float on_chord = (static_cast<float>(main) - start_main_) / (main_per_along_ * length_);
+  using Floats = std::array<float, Samples::kCapacity>;
+
+  /// Moves the crossings of the profiles from the chord to the curve; sets their places along the line. In
+  /// loops over all samples, which compilers turn into vectors.
+  void moveToCurve(std::size_t count, Floats& crosses, Samples& samples) const {
+    const float share_per_main = 1.0F / (main_per_along_ * length_);
+    const float cross_per_offset = 1.0F / normal_share_;
     // The profile is not along the normal: it meets the curve beside where it meets the chord.
-    const float first = bend_.offset(on_chord) / normal_share_;
-    const float fraction = on_chord + first * along_per_cross_ / length_;
-    *place = 2.0F * fraction - 1.0F;
-    return bend_.offset(fraction) / normal_share_;
+    const float share_per_offset = cross_per_offset * along_per_cross_ / length_;
+    Floats fractions, offsets;
+    for (std::size_t i = 0; i < count; ++i) {
+      fractions[i] = (static_cast<float>(mains_[i]) - start_main_) * share_per_main;
+    }
+    findOffsets(count, fractions, offsets);
+    for (std::size_t i = 0; i < count; ++i) fractions[i] += offsets[i] * share_per_offset;
+    findOffsets(count, fractions, offsets);
+    for (std::size_t i = 0; i < count; ++i) {
+      samples.places[i] = 2.0F * fractions[i] - 1.0F;
+      crosses[i] += offsets[i] * cross_per_offset;
+    }
+  }
+
+  /// LineBend::offset() of many fractions.
+  void findOffsets(std::size_t count, const Floats& fractions, Floats& offsets) const {
+    for (std::size_t i = 0; i < count; ++i) offsets[i] = bend_.c[bend_.terms - 1];
+    for (std::size_t k = bend_.terms - 1; k-- > 0;) {
+      const float c = bend_.c[k];
+      for (std::size_t i = 0; i < count; ++i) offsets[i] = offsets[i] * (2.0F * fractions[i] - 1.0F) + c;
+    }
+    for (std::size_t i = 0; i < count; ++i) offsets[i] *= fractions[i] * (1.0F - fractions[i]);
   }
 
   bool inside(std::size_t i) const {
@@ -189,6 +217,36 @@ float LineRefiner::contrastOf(const cv::Mat& gray, const LineCurve& line) const 
   return *middle;
 }
 
+float LineRefiner::reachOf(const cv::Mat& gray, const LineCurve& ahead, float contrast, float max_gap) const {
+  const float length = ahead.chord.length();
+  if (!canBeSampled(ahead.chord)) return 0.0F;
+  const int wanted = std::clamp(static_cast<int>(length / kSampleSpacing), 1, kMaxSamples);
+  const float spacing = length / static_cast<float>(wanted);
+  const float min_slope = std::max(kMinReachSlope, kMinReachShare * std::abs(contrast));
+  ProfileSampler sampler(gray, ahead, contrast, static_cast<float>(parameters_.search_px));
+  Samples samples;
+  sampler.take(wanted, samples);
+  float reach = 0.0F;  // of what belongs to the edge
+  float last = 0.0F;   // where the edge was found last
+  float gap = 0.0F;    // the longest one that is not made up for, and what was found behind it
+  float behind = 0.0F;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(samples.count); ++i) {
+    const float place = 0.5F * (samples.places[i] + 1.0F) * length;
+    if (place - last > max_gap + spacing) break;
+    if (samples.slopes[i] < min_slope || std::abs(samples.offsets[i]) > kOnEdgeAhead) continue;
+    if (place - last > 1.5F * spacing) {
+      gap = std::max(gap, place - last - spacing);
+      behind = 0.0F;
+    }
+    behind += spacing;
+    last = place;
+    if (behind < 2.0F * gap) continue;
+    gap = 0.0F;
+    reach = place;
+  }
+  return reach > length - spacing ? length : reach;  // the last sample stands for the rest
+}
+
 EdgeFit LineRefiner::fit(const cv::Mat& gray, const LineCurve& curve, float contrast) const {
   EdgeFit result;
   const LineSegment& line = curve.chord;
@@ -215,7 +273,7 @@ EdgeFit LineRefiner::fit(const cv::Mat& gray, const LineCurve& curve, float cont
   if (result.support < static_cast<float>(parameters_.min_support)) return result;
 
   result.contrast = std::copysign(slopes / supported, contrast);
-  const float variance = squares / (supported - 2.0F);
+  const float variance = kCorrelation * squares / (supported - 2.0F);
   constexpr float kFloor = kSigmaFloor * kSigmaFloor;
   result.sigma_px = std::sqrt(kFloor + variance / supported);
   // Of the ends, at -1 and 1. The floor is of offset and tilt alike: a sampling error differs along the line.

@@ -37,6 +37,7 @@ bool CutAtBorderCheck::passes(const VisibleArea& area, TrackedLine& line, TrackS
   LineCurve curve(line.segment, state.bend);
   if (!area.cutToBounds(0.0F, curve)) return false;
   const bool cut = curve.chord.length() != line.segment.length();
+  if (cut) line.forgetNormalized();
   line.segment = curve.chord;
   state.bend = curve.bend;
   return !cut || curve.chord.length() >= min_length_;
@@ -50,6 +51,7 @@ bool FieldOfViewCheck::passes(const VisibleArea& area, TrackedLine& line, TrackS
                               FrameStatistics& statistics) const {
   LineCurve curve(line.segment, state.bend);
   if (!area.cutToFieldOfView(min_length_, curve, statistics)) return false;
+  if (curve.chord.start != line.segment.start || curve.chord.end != line.segment.end) line.forgetNormalized();
   line.segment = curve.chord;
   state.bend = curve.bend;
   return true;
@@ -58,6 +60,22 @@ bool FieldOfViewCheck::passes(const VisibleArea& area, TrackedLine& line, TrackS
 bool MaskCheck::passes(const VisibleArea& area, TrackedLine& line, TrackState& state,
                        FrameStatistics&) const {
   return area.mask().empty() || mostlyInMask({line.segment, state.bend}, area.mask());
+}
+
+void DepthCheck::apply(const VisibleArea&, TrackTable& tracks, FrameStatistics&) {
+  std::size_t alive = 0;
+  std::size_t conflicts = 0;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    if (tracks.state(i).lost()) continue;
+    ++alive;
+    if (tracks.state(i).depth_conflict) ++conflicts;
+  }
+  // Where many disagree, the motion may be wrong.
+  if (5 * conflicts > alive) return;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    TrackState& state = tracks.state(i);
+    if (!state.lost() && state.depth_conflict) state.loss = reason();
+  }
 }
 
 void EdgeJumpCheck::apply(const VisibleArea&, TrackTable& tracks, FrameStatistics&) {

@@ -125,6 +125,14 @@ class MaskCheck : public SingleTrackCheck {
   bool passes(const VisibleArea& area, TrackedLine& line, TrackState&, FrameStatistics&) const override;
 };
 
+/// Rejects lines whose movement contradicts their depth, as long as most lines agree with the motion of the
+/// camera.
+class DepthCheck : public TrackCheck {
+ public:
+  DepthCheck() : TrackCheck(LossReason::kDepth) {}
+  void apply(const VisibleArea& area, TrackTable& tracks, FrameStatistics& statistics) override;
+};
+
 /// Rejects lines that jumped to a neighbouring edge: flow and edge disagree by more than is usual for the
 /// other lines of the image.
 class EdgeJumpCheck : public TrackCheck {

@@ -22,6 +22,8 @@ class ReplenishPolicy : public DetectionPolicy {
 
   bool isDue(const DetectionState& state) const override {
     if (state.images_in_epoch == 1) return true;
+    // Most lines are gone at once: no image goes without.
+    if (2 * state.lines < state.lines_after_detection) return true;
     if (state.images_since_detection < interval_) return false;
     return state.lines < min_lines_ ||
            static_cast<double>(state.lines) < ratio_ * static_cast<double>(state.lines_after_detection) ||

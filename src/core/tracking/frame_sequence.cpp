@@ -41,14 +41,26 @@ std::size_t FrameSequence::reset() {
   return lines;
 }
 
-void normalizeEndpoints(const CameraModel* camera, std::vector<TrackedLine>& lines) {
+namespace {
+
+void normalize(const CameraModel* camera, TrackedLine& line) {
   const Eigen::Vector2d unknown = TrackedLine{}.start_normalized;
+  const auto normalized = [&](const Eigen::Vector2f& pixel) -> Eigen::Vector2d {
+    return camera != nullptr ? camera->normalize(pixel.cast<double>()).value_or(unknown) : unknown;
+  };
+  line.start_normalized = normalized(line.segment.start);
+  line.end_normalized = normalized(line.segment.end);
+}
+
+}  // namespace
+
+void normalizeEndpoints(const CameraModel* camera, std::vector<TrackedLine>& lines) {
+  for (TrackedLine& line : lines) normalize(camera, line);
+}
+
+void normalizeMissingEndpoints(const CameraModel* camera, std::vector<TrackedLine>& lines) {
   for (TrackedLine& line : lines) {
-    const auto normalized = [&](const Eigen::Vector2f& pixel) -> Eigen::Vector2d {
-      return camera != nullptr ? camera->normalize(pixel.cast<double>()).value_or(unknown) : unknown;
-    };
-    line.start_normalized = normalized(line.segment.start);
-    line.end_normalized = normalized(line.segment.end);
+    if (!line.start_normalized.allFinite() || !line.end_normalized.allFinite()) normalize(camera, line);
   }
 }
 

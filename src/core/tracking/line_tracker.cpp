@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -9,6 +11,7 @@
 #include "tet_line_tracker/image/image_pyramid.h"
 #include "tet_line_tracker/tracking/frame_sequence.h"
 #include "tracking/stopwatch.h"
+#include "tracking/track_follower.h"
 #include "tracking/track_table.h"
 #include "tracking/tracking_method.h"
 #include "tracking/visible_area.h"
@@ -40,7 +43,6 @@ class LineTracker::Implementation {
   void startEpoch();
   int pyramidLevels() const;
   void follow(const MotionPrediction& motion);
-  void followTrack(const MotionPrediction& motion, TrackedLine& line, TrackState& state) const;
   void refine();
   void check();
   void detect(const cv::Mat& gray);
@@ -75,11 +77,16 @@ FrameResult LineTracker::Implementation::process(const cv::Mat& gray, std::int64
   const MotionPrediction motion = prior_.predict(pyramid_, stamp_ns);
   statistics.prior = motion.sourceName();
   statistics.prior_rotation = static_cast<float>(motion.angle());
+  statistics.imu_time_offset = prior_.imuTimeOffset();
+  Eigen::Map<Eigen::Vector3f>(statistics.translation.data()) = motion.translation.cast<float>();
+  statistics.translation_inliers = static_cast<std::uint32_t>(motion.inliers);
   statistics.prior_ms = stage.lap();
   follow(motion);
   statistics.flow_ms = stage.lap();
   refine();
   statistics.refine_ms = stage.lap();
+  normalizeEndpoints(camera_.get(), tracks_.lines());
+  tracks_.measureDepths(motion, prior_.focal());
   check();
   if (method_.motion.predict_parallax) tracks_.predictParallax();
   statistics.flow_ms += stage.lap();
@@ -87,7 +94,7 @@ FrameResult LineTracker::Implementation::process(const cv::Mat& gray, std::int64
   statistics.detect_ms = stage.lap();
   extractTemplates();
   statistics.flow_ms += stage.lap();
-  normalizeEndpoints(camera_.get(), tracks_.lines());
+  normalizeMissingEndpoints(camera_.get(), tracks_.lines());
   markCuts();
   frame.lines = tracks_.lines();
   statistics.undistort_ms = stage.lap();
@@ -118,44 +125,30 @@ int LineTracker::Implementation::pyramidLevels() const {
 }
 
 void LineTracker::Implementation::follow(const MotionPrediction& motion) {
-  workers_.run(tracks_.size(),
-               [&](std::size_t i) { followTrack(motion, tracks_.line(i), tracks_.state(i)); });
-}
-
-/// Touches nothing but its track: tracks are followed in parallel.
-void LineTracker::Implementation::followTrack(const MotionPrediction& motion, TrackedLine& line,
-                                              TrackState& state) const {
-  state.rotated = prior_.apply(motion, line.segment, line.start_normalized, line.end_normalized);
-  state.predicted = {state.rotated.start + state.start_parallax, state.rotated.end + state.end_parallax};
-  LineCurve expected(state.predicted);
-  if (!area_.lens().isStraight() && line.start_normalized.allFinite() && line.end_normalized.allFinite()) {
-    expected.bend = area_.lens().between(state.rotated, motion.rotation * line.start_normalized.homogeneous(),
-                                         motion.rotation * line.end_normalized.homogeneous());
-  }
-  const EndpointFlow flow = method_.flow->track(state.patches, pyramid_, expected);
-  state.loss = lossOf(flow.status);
-  if (state.lost()) return;
-  // Inside the dead band a line keeps its ends, which noise would otherwise let wander along it.
-  const float moved = std::max((flow.segment.start - state.reference.start).norm(),
-                               (flow.segment.end - state.reference.end).norm());
-  state.template_due = moved >= method_.dead_band_px || flow.residual > method_.max_kept_residual;
-  line.segment = state.template_due ? flow.segment : state.reference;
-  state.followed = line.segment;
-  line.residual = flow.residual;
-  ++line.age;
+  const TrackFollower follower(method_, prior_, area_);
+  const auto followOne = [&](std::size_t i) {
+    follower.follow(motion, pyramid_, tracks_.line(i), tracks_.state(i));
+  };
+  workers_.run(tracks_.size(), std::cref(followOne));  // by reference: it is too large to be kept without heap
 }
 
 void LineTracker::Implementation::refine() {
   if (!method_.refiner) return;
-  workers_.run(tracks_.size(), [this](std::size_t i) {
+  const std::uint64_t image = frames_.frame().image_count;
+  workers_.run(tracks_.size(), [this, image](std::size_t i) {
     TrackedLine& line = tracks_.line(i);
     TrackState& state = tracks_.state(i);
     if (state.lost()) return;
     const LineCurve curve = area_.lens().curve(line.segment);
-    const EdgeFit fit = method_.refiner->fit(pyramid_.level(0), curve, state.contrast);
+    EdgeFit fit = method_.refiner->fit(pyramid_.level(0), curve, state.contrast);
     state.bend = curve.bend;
-    state.support = fit.support;
     state.edge_offset = std::abs(fit.segment.distance(line.segment.middle()));
+    const LineSegment found = fit.segment;
+    if (method_.grower &&
+        method_.grower->growTracked(pyramid_.level(0), area_, image, line, fit, state.bend)) {
+      state.setGrown(found, fit.segment);
+    }
+    state.support = fit.support;
     state.contrast = fit.contrast;
     line.segment = fit.segment;
     line.sigma_px = fit.sigma_px;
@@ -224,6 +217,9 @@ void LineTracker::setImuRotation(const Eigen::Matrix3d& camera_from_imu) {
 }
 void LineTracker::addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3d& angular_velocity) {
   implementation_->prior().addAngularVelocity(stamp_ns, angular_velocity);
+}
+std::int64_t LineTracker::imuStamp(std::int64_t image_stamp_ns) const {
+  return image_stamp_ns + std::llround(1e9 * implementation_->prior().imuTimeOffset());
 }
 std::size_t LineTracker::reset() {
   return implementation_->reset();

@@ -1,13 +1,23 @@
 #include "tracking/track_initializer.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tet_line_tracker {
+namespace {
+
+/// An edge this steep stands out of any noise [gray / px]: where it has gaps, it has them in space. Rows of
+/// small print are such edges, and are lost at once.
+constexpr float kClearContrast = 20.0F;
+constexpr double kClearGaps = 0.25;  ///< of the gaps that other edges may have
+
+}  // namespace
 
 TrackInitializer::TrackInitializer(const DetectionParameters& detection, const LineRefiner& refiner,
                                    const Options& options)
     : parameters_(detection),
       refiner_(refiner),
+      grower_(refiner),
       options_(options),
       detector_(makeLineDetector(detection.detector, options.detectors)) {}
 
@@ -50,6 +60,12 @@ void TrackInitializer::addTracks(const cv::Mat& gray, const VisibleArea& area, T
   statistics.lines_added = static_cast<std::uint32_t>(tracks.size() - tracked);
 }
 
+bool TrackInitializer::isSupported(const EdgeFit& edge) const {
+  const double max_gaps = 1.0 - parameters_.min_detection_support;
+  const double gaps = 1.0 - static_cast<double>(edge.support);
+  return gaps <= (std::abs(edge.contrast) < kClearContrast ? max_gaps : kClearGaps * max_gaps);
+}
+
 std::optional<TrackInitializer::NewLine> TrackInitializer::fitEdge(const cv::Mat& gray,
                                                                    const VisibleArea& area,
                                                                    const LineCurve& candidate,
@@ -58,11 +74,15 @@ std::optional<TrackInitializer::NewLine> TrackInitializer::fitEdge(const cv::Mat
   line.edge.segment = candidate.chord;
   if (options_.fit_edges) {
     line.edge = refiner_.fit(gray, candidate, refiner_.contrastOf(gray, candidate));
-    if (line.edge.support < parameters_.min_detection_support) return std::nullopt;
+    if (!isSupported(line.edge)) return std::nullopt;
   }
   const auto min_length = static_cast<float>(parameters_.min_length);
   LineCurve inside(line.edge.segment, candidate.bend);
   if (!area.cutToBounds(options_.margin_px, inside)) return std::nullopt;
+  line.edge.segment = inside.chord;
+  if (options_.grow && grower_.grow(gray, area, options_.margin_px, line.edge, inside.bend)) {
+    inside.chord = line.edge.segment;
+  }
   if (inside.chord.length() < min_length + options_.margin_px) return std::nullopt;
   if (!area.cutToFieldOfView(min_length, inside, statistics)) return std::nullopt;
   line.edge.segment = inside.chord;

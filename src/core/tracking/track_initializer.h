@@ -10,6 +10,7 @@
 #include "tet_line_tracker/detection/line_detector.h"
 #include "tet_line_tracker/parameters/parameters.h"
 #include "tet_line_tracker/refinement/line_refiner.h"
+#include "tracking/edge_grower.h"
 #include "tracking/track_table.h"
 #include "tracking/visible_area.h"
 
@@ -22,6 +23,8 @@ class TrackInitializer {
   struct Options {
     /// New lines are fitted to their edges; those with too little support are left out.
     bool fit_edges{true};
+    /// New lines grow along their edges beyond what the detector found; needs fit_edges.
+    bool grow{true};
     /// New lines by CandidateSelector; otherwise the longest first.
     bool spread{true};
     /// For detector `auto`: the detectors to try, best first.
@@ -46,11 +49,14 @@ class TrackInitializer {
     LineBend bend;
     LineCurve curve() const { return {edge.segment, bend}; }
   };
+  /// Whether enough of a new line lies on an edge.
+  bool isSupported(const EdgeFit& edge) const;
   std::optional<NewLine> fitEdge(const cv::Mat& gray, const VisibleArea& area, const LineCurve& candidate,
                                  FrameStatistics& statistics) const;
 
   DetectionParameters parameters_;
   LineRefiner refiner_;
+  EdgeGrower grower_;
   Options options_;
   std::unique_ptr<LineDetector> detector_;
   DetectionHints hints_;

@@ -6,6 +6,15 @@
 
 namespace tet_line_tracker {
 
+namespace {
+
+/// Of the movement across a line: by the fits in both images, and by the rotation [px].
+constexpr double kMovementSigma = 0.4;
+/// A line must contradict its depth by more than this [px].
+constexpr double kMaxConflict = 3.0;
+
+}  // namespace
+
 LossReason lossOf(EndpointFlow::Status status) {
   switch (status) {
     case EndpointFlow::Status::kNoSolution:
@@ -18,6 +27,12 @@ LossReason lossOf(EndpointFlow::Status status) {
       break;
   }
   return LossReason::kCount;
+}
+
+void TrackState::setGrown(const LineSegment& before, const LineSegment& after) {
+  template_due = true;
+  const float length = before.length();
+  rotated = {rotated.at(before.along(after.start) / length), rotated.at(before.along(after.end) / length)};
 }
 
 void TrackTable::add(const EdgeFit& edge, const LineBend& bend) {
@@ -33,6 +48,8 @@ void TrackTable::add(const EdgeFit& edge, const LineBend& bend) {
   state.template_due = true;
   state.start_parallax.setZero();
   state.end_parallax.setZero();
+  state.depth.known = false;
+  state.depth_conflict = false;
   state.loss = LossReason::kCount;
 }
 
@@ -53,6 +70,23 @@ void TrackTable::removeLost(FrameStatistics& statistics) {
   statistics.tracks_kept = static_cast<std::uint32_t>(kept);
 }
 
+void TrackTable::measureDepths(const MotionPrediction& motion, double focal) {
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    TrackState& state = states_[i];
+    state.step.start_now = lines_[i].start_normalized;
+    state.step.end_now = lines_[i].end_normalized;
+    state.depth_conflict = false;
+    if (!motion.translates() || !state.step.valid()) {
+      state.depth.known = false;
+      continue;
+    }
+    const LineDepth measured = measureDepth(state.step, motion.translation, kMovementSigma / focal);
+    state.depth_conflict =
+        contradicts(measured, state.expected_depth, state.depth.known, kMaxConflict / focal);
+    state.depth = movedTo(state.step, fused(state.expected_depth, measured), motion.translation);
+  }
+}
+
 void TrackTable::predictParallax() {
   // A part of it only, so that an error decays.
   constexpr float kDecay = 0.8F;
@@ -67,7 +101,7 @@ void TrackTable::predictParallax() {
 
 float TrackTable::coverage(const cv::Size& size) const {
   CoverageGrid grid(size.width, size.height);
-  for (const TrackedLine& line : lines_) grid.add(line.segment);
+  for (std::size_t i = 0; i < lines_.size(); ++i) grid.add({lines_[i].segment, states_[i].bend});
   return grid.coverage();
 }
 

@@ -11,6 +11,7 @@
 #include "tet_line_tracker/geometry/line_bend.h"
 #include "tet_line_tracker/refinement/line_refiner.h"
 #include "tet_line_tracker/tracking/line_frame.h"
+#include "tracking/line_depth.h"
 
 namespace tet_line_tracker {
 
@@ -25,14 +26,22 @@ struct TrackState {
   /// Movement of the ends beyond the rotation of the camera, predicted for the next image [px]
   Eigen::Vector2f start_parallax{Eigen::Vector2f::Zero()};
   Eigen::Vector2f end_parallax{Eigen::Vector2f::Zero()};
+  LineDepth depth;  ///< of the ends in the last image
 
   // Of the step from the last image to this one:
-  LineSegment rotated;      ///< the line of the last image, moved by the rotation of the camera [px]
-  LineSegment predicted;    ///< the same, moved by the predicted parallax as well [px]
-  LineSegment followed;     ///< where the flow found the line [px]
-  float edge_offset{0.0F};  ///< of the edge from `followed`, at its middle [px]
-  float support{1.0F};      ///< share of the line that lies on an edge, 0..1
+  LineSegment rotated;         ///< the line of the last image, moved by the rotation of the camera [px]
+  LineSegment predicted;       ///< the same, moved by the predicted parallax as well [px]
+  LineStep step;               ///< both images' ends as rays
+  LineDepth expected_depth;    ///< of the ends in the image before, in units of 1 / this step
+  bool depth_conflict{false};  ///< by how it moved it would lie behind the camera, or its depth jumps
+  LineSegment followed;        ///< where the flow found the line [px]
+  float edge_offset{0.0F};     ///< of the edge from `followed`, at its middle [px]
+  float support{1.0F};         ///< share of the line that lies on an edge, 0..1
   LossReason loss{LossReason::kCount};  ///< kCount: not lost
+
+  /// The line as it was found in this image has grown along itself from `before` to `after`: its templates
+  /// are due, and its parallax is that of the new ends.
+  void setGrown(const LineSegment& before, const LineSegment& after);
 
   bool lost() const { return loss != LossReason::kCount; }
 };
@@ -54,6 +63,9 @@ class TrackTable {
 
   /// Removes the lost tracks and counts them by reason; the others keep their order.
   void removeLost(FrameStatistics& statistics);
+
+  /// Learns from the step how deep the lines lie. `focal`: [px].
+  void measureDepths(const MotionPrediction& motion, double focal);
 
   /// The movement across a line that the rotation of the camera does not explain will go on in the next
   /// image; along it the flow knows little.

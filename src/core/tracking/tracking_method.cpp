@@ -31,6 +31,7 @@ TrackingMethod makePaperMethod(const LineTrackerParameters& p) {
   method.detection_policy = makeMinLinesPolicy(p.detection);
   TrackInitializer::Options options;
   options.fit_edges = false;
+  options.grow = false;
   options.spread = false;
   options.detectors = {"lsd", "fld", "edge"};
   options.margin_px = 0.0F;
@@ -61,17 +62,20 @@ TrackingMethod makeJointMethod(const LineTrackerParameters& p) {
   add<AngleCheck>(method.checks, p.plausibility.max_rotation);
   if (p.refiner.refine) {
     method.refiner = std::make_unique<LineRefiner>(p.refiner);
+    method.grower.emplace(*method.refiner);
     add<SupportCheck>(method.checks, p.refiner.min_support);
   }
   add<CutAtBorderCheck>(method.checks, p.detection.min_length);
   add<MinLengthCheck>(method.checks, p.detection.min_length);
   add<FieldOfViewCheck>(method.checks, p.detection.min_length);
   add<MaskCheck>(method.checks);
+  if (p.plausibility.check_depth) add<DepthCheck>(method.checks);
   if (p.refiner.refine) add<EdgeJumpCheck>(method.checks, p.plausibility.max_edge_offset);
   add<DuplicateCheck>(method.checks);
   method.detection_policy = makeReplenishPolicy(p.detection);
   TrackInitializer::Options options;
   options.fit_edges = p.refiner.refine;
+  options.grow = p.refiner.refine;
   method.initializer = std::make_unique<TrackInitializer>(p.detection, LineRefiner(p.refiner), options);
   return method;
 }

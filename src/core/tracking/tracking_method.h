@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "tet_line_tracker/refinement/line_refiner.h"
 #include "tracking/checks.h"
 #include "tracking/detection_policy.h"
+#include "tracking/edge_grower.h"
 #include "tracking/track_initializer.h"
 
 namespace tet_line_tracker {
@@ -22,6 +24,7 @@ struct TrackingMethod {
   /// A line in the dead band keeps its template unless its residual is above this, 0..1
   float max_kept_residual{0.0F};
   std::unique_ptr<LineRefiner> refiner;  ///< nullptr: lines stay where the flow puts them
+  std::optional<EdgeGrower> grower;      ///< nothing: lines never become longer than they were detected
   TrackChecks checks;                    ///< in this order
   std::unique_ptr<DetectionPolicy> detection_policy;
   std::unique_ptr<TrackInitializer> initializer;

@@ -45,10 +45,10 @@ class VisibleArea {
   bool cutToFieldOfView(float min_length, LineCurve& line, FrameStatistics& statistics) const;
   /// LineCut bits of a line: which ends lie where bounds, mask or field of view end.
   std::uint8_t cutsOf(const LineCurve& line) const;
-
- private:
+  /// Whether a line may go there: in the bounds, on the mask, in the field of view.
   bool sees(const Eigen::Vector2f& pixel) const;
 
+ private:
   float border_;
   cv::Size size_;
   std::shared_ptr<const CameraModel> camera_;

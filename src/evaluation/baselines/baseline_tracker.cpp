@@ -7,6 +7,7 @@
 #include "tracking/stopwatch.h"
 #ifdef TET_HAVE_LINE_DESCRIPTOR
 #include "lsd_lbd_knn.h"
+#include "lsd_remapped.h"
 #endif
 
 namespace tet_line_tracker {
@@ -23,7 +24,7 @@ FrameResult BaselineTracker::process(const cv::Mat& gray, std::int64_t stamp_ns)
   Stopwatch stage;
   normalizeEndpoints(camera_.get(), frame().lines);
   FrameStatistics& statistics = frame().statistics;
-  statistics.undistort_ms = stage.lap();
+  statistics.undistort_ms += stage.lap();
   statistics.total_ms = total.lap();
   statistics.coverage = static_cast<float>(gridCoverage(frame()));
   return {verdict, &frame()};
@@ -39,7 +40,7 @@ TrackedLine BaselineTracker::newLine(const LineSegment& segment) {
 std::vector<std::string> baselineNames() {
   return {
 #ifdef TET_HAVE_LINE_DESCRIPTOR
-      "lsd_lbd_knn",
+      "lsd_lbd_knn", "lsd_remapped",
 #endif
       "lk_endpoints"};
 }
@@ -48,12 +49,13 @@ std::unique_ptr<BaselineTracker> makeBaselineTracker(const std::string& name,
                                                      const LineTrackerParameters& parameters) {
 #ifdef TET_HAVE_LINE_DESCRIPTOR
   if (name == "lsd_lbd_knn") return std::make_unique<LsdLbdKnn>(parameters);
+  if (name == "lsd_remapped") return std::make_unique<LsdRemapped>(parameters);
 #endif
   if (name == "lk_endpoints") return std::make_unique<LkEndpoints>(parameters);
   std::string known = "tet";
   for (const std::string& other : baselineNames()) known += ", " + other;
   throw std::invalid_argument("this build has no tracker '" + name + "'; it has " + known +
-                              (name == "lsd_lbd_knn" ? " (OpenCV came without line_descriptor)" : ""));
+                              (name.rfind("lsd_", 0) == 0 ? " (OpenCV came without line_descriptor)" : ""));
 }
 
 }  // namespace tet_line_tracker

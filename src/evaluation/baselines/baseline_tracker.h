@@ -15,7 +15,7 @@ namespace tet_line_tracker {
 
 /// Another front end to compare LineTracker with. Of its parameters those of detection and stream are used;
 /// the detector is always LSD. In the statistics, flow_ms is the time of matching or flow, refine_ms that of
-/// describing lines.
+/// describing lines, undistort_ms with that of remapping.
 class BaselineTracker : public LineFrontEnd {
  public:
   void setCamera(std::shared_ptr<const CameraModel> camera) override { camera_ = std::move(camera); }
@@ -33,6 +33,7 @@ class BaselineTracker : public LineFrontEnd {
 
   LineFrame& frame() { return frames_.frame(); }
   const DetectionParameters& detection() const { return detection_; }
+  const std::shared_ptr<const CameraModel>& camera() const { return camera_; }
   /// A line that is seen for the first time.
   TrackedLine newLine(const LineSegment& segment);
 

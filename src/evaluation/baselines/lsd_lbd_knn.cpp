@@ -47,6 +47,9 @@ void LsdLbdKnn::track(const cv::Mat& gray) {
   FrameStatistics& statistics = frame().statistics;
   Stopwatch stage;
   detector_->detect(gray, static_cast<float>(detection().min_length), segments_);
+  segments_.erase(std::remove_if(segments_.begin(), segments_.end(),
+                                 [this](const LineSegment& segment) { return !isWanted(segment); }),
+                  segments_.end());
   frame().detected = true;
   statistics.lines_detected = static_cast<std::uint32_t>(segments_.size());
   statistics.detect_ms = stage.lap();

@@ -22,6 +22,8 @@ class LsdLbdKnn : public BaselineTracker {
  protected:
   void track(const cv::Mat& gray) override;
   void forget() override { descriptors_before_.release(); }
+  /// Whether a detected line is used.
+  virtual bool isWanted(const LineSegment&) const { return true; }
 
  private:
   /// For each line of this image its partner among those of the image before, or -1.

@@ -25,6 +25,7 @@ Sequence Sequence::ofFolder(const std::string& folder) {
 
 Sequence Sequence::simulated(const std::string& motion, int count) {
   SimulationOptions options;
+  options.seed = 1001;  // those below 1000 are for tuning
   options.motion = motion;
   options.seconds = (count - 1) / options.rate_hz;
   options.threads = 2;

@@ -130,6 +130,7 @@ extrinsicTranslation: !!opencv-matrix
    cols: 1
    dt: d
    data: [-0.02,-0.06, 0.01]
+td: -0.012             # image clock + td = IMU clock
 )";
 
 TEST_F(CalibrationFileTest, ReadsWhatCameraCalibrationWrites) {
@@ -172,6 +173,7 @@ TEST_F(CalibrationFileTest, ReadsTheChosenCameraOfAKalibrChain) {
   ASSERT_TRUE(first.camera_from_imu);
   EXPECT_LT((*first.camera_from_imu * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(0.1, 1.2, 0.3)).norm(),
             1e-12);
+  EXPECT_EQ(first.imu_time_offset, 0.001);
 
   const CalibrationFile second = read(kKalibr, 1);
   EXPECT_EQ(second.name, "cam1");
@@ -179,6 +181,7 @@ TEST_F(CalibrationFileTest, ReadsTheChosenCameraOfAKalibrChain) {
   EXPECT_EQ(second.camera.cx, 320.0);
   EXPECT_EQ(second.camera.distortion, (Numbers{1.5, 0.01, 0.02, 0.03, 0.04}));
   EXPECT_FALSE(second.camera_from_imu);
+  EXPECT_FALSE(second.imu_time_offset);
 
   EXPECT_NE(errorOf(kKalibr, 2).find("cam2 is missing"), std::string::npos);
 }
@@ -190,6 +193,7 @@ TEST_F(CalibrationFileTest, ReadsTheThreeModelsOfCamodocal) {
   EXPECT_EQ(pinhole.camera.cy, 248.1);
   EXPECT_EQ(pinhole.camera.distortion, (Numbers{-0.2917, 0.08228, 5.333e-05, -1.578e-04}));
   ASSERT_TRUE(pinhole.camera_from_imu);
+  EXPECT_EQ(pinhole.imu_time_offset, -0.012);
   // The IMU's origin seen from the camera: -R^T t.
   EXPECT_LT((pinhole.camera_from_imu->translation() - Eigen::Vector3d(0.06, -0.02, -0.01)).norm(), 1e-12);
 

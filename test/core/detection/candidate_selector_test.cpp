@@ -36,5 +36,16 @@ TEST(CandidateSelector, ALineThatWasTakenMakesItsNeighboursWait) {
   EXPECT_EQ(chooser.next(), &candidates[2]);
 }
 
+TEST(CandidateSelector, LeavesOutWhatAddsNothingToCellsThatAreFull) {
+  const std::vector<LineSegment> candidates{horizontal(10, 20, 50)};
+  CandidateSelector chooser;
+  chooser.start(800, 600, candidates);
+  for (int i = 0; i < 2; ++i) chooser.add(horizontal(5, 40.0F + 10.0F * static_cast<float>(i), 90));
+  EXPECT_EQ(chooser.next(), &candidates[0]);
+  chooser.start(800, 600, candidates);
+  for (int i = 0; i < 4; ++i) chooser.add(horizontal(5, 40.0F + 10.0F * static_cast<float>(i), 90));
+  EXPECT_EQ(chooser.next(), nullptr);
+}
+
 }  // namespace
 }  // namespace tet_line_tracker

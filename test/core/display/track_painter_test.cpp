@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <stdexcept>
 
+#include "bent_edge.h"
+#include "tet_line_tracker/camera/lens_bend.h"
+
 namespace tet_line_tracker {
 namespace {
 
@@ -44,6 +47,28 @@ TEST(TrackPainter, PaintsOnTheLineInTheColourOfItsAge) {
   EXPECT_NEAR(on[1], 255 * colour[1], 40);
   EXPECT_NEAR(on[2], 255 * colour[0], 40);
   EXPECT_EQ(bgr.at<cv::Vec3b>(70, 80), cv::Vec3b(100, 100, 100));
+}
+
+TEST(TrackPainter, PaintsTheCurveIntoWhichTheLensBendsTheLine) {
+  TrackPainter painter({0, false, false});
+  const cv::Vec3b ground(100, 100, 100);
+  const cv::Mat gray(480, 752, CV_8UC1, cv::Scalar(100));
+  const LineFrame frame = frameOf(752, 480, {lineOf(1, 1, {100, 60}, {650, 60})});
+  const cv::Point on_chord(375, 60);
+  const Eigen::Vector2f curve = LensBend(eurocCamera(), 752, 480).curve(frame.lines[0].segment).at(0.5F);
+  const cv::Point on_curve(cvRound(curve.x()), cvRound(curve.y()));
+  ASSERT_GT(cv::norm(on_curve - on_chord), 8.0);
+
+  cv::Mat bgr;
+  painter.setCamera(eurocCamera());
+  painter.paint(gray, frame, bgr);
+  EXPECT_NE(bgr.at<cv::Vec3b>(on_curve), ground);
+  EXPECT_EQ(bgr.at<cv::Vec3b>(on_chord), ground);
+
+  painter.setCamera(nullptr);
+  painter.paint(gray, frame, bgr);
+  EXPECT_EQ(bgr.at<cv::Vec3b>(on_curve), ground);
+  EXPECT_NE(bgr.at<cv::Vec3b>(on_chord), ground);
 }
 
 TEST(TrackPainter, ShowsTheWayOfTheEndpointsWithinAnEpoch) {

@@ -25,6 +25,13 @@ TEST(CoverageGrid, CountsTheCellsThatALineCrosses) {
   EXPECT_FLOAT_EQ(coverageOf({{{0.0F, 470.0F}, {639.0F, 470.0F}}}), 8.0F);
 }
 
+TEST(CoverageGrid, CountsTheCellsAlongTheCurveOfABentLine) {
+  CoverageGrid grid(kWidth, kHeight);
+  // 15 px up in the middle: into the row above for six columns, of which two show both rows.
+  grid.add(LineCurve({{0.0F, 90.0F}, {639.0F, 90.0F}}, LineBend{{60.0F}}));
+  EXPECT_FLOAT_EQ(48.0F * grid.coverage(), 10.0F);
+}
+
 TEST(CoverageGrid, CountsACellOnceHoweverManyLinesCrossIt) {
   EXPECT_FLOAT_EQ(coverageOf({{{10.0F, 10.0F}, {150.0F, 10.0F}}, {{70.0F, 20.0F}, {10.0F, 20.0F}}}), 2.0F);
 }

@@ -69,6 +69,22 @@ TEST(SameEdge, FollowsTheBendOfALine) {
   EXPECT_FALSE(areDuplicates(bent, LineSegment{{105.0F, 298.2F}, {145.0F, 298.9F}}, limits));
 }
 
+TEST(SameEdge, AnIndexFindsPiecesOfABentLineThatAreTurnedAgainstItsChord) {
+  const DuplicateCriteria limits;
+  // The curve leaves its chord by 30 px: near its ends it is 0.18 rad steeper than the chord.
+  const LineCurve bent({{100.0F, 300.0F}, {700.0F, 300.0F}}, LineBend{{120.0F}});
+  const LineCurve piece(LineSegment{bent.at(0.02F), bent.at(0.1F)});
+  ASSERT_TRUE(areDuplicates(bent, piece, limits));
+  SegmentIndex index(limits);
+  index.add(bent);
+  EXPECT_TRUE(index.containsDuplicateOf(piece));
+  index.clear();
+  index.add(piece);
+  EXPECT_TRUE(index.containsDuplicateOf(bent));
+  index.clear();
+  EXPECT_FALSE(index.containsDuplicateOf(bent));
+}
+
 TEST(LineCurve, IsClippedWhereTheCurveLeavesTheBounds) {
   const ImageBounds bounds = ImageBounds::ofImage(640, 480, 2.0F);
   // The chord leaves the image at the bottom; the curve, 8 px above it in the middle, does so later.

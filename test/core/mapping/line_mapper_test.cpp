@@ -125,6 +125,44 @@ TEST(LineMapper, IsAsSureAsTheNoiseAllows) {
   EXPECT_LT(squares / mapped, 2.2);
 }
 
+TEST(LineMapper, IsAsSureOfEachEndAsItsCovarianceSays) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> start_noise(0.0, 0.1);
+  std::normal_distribution<double> end_noise(0.0, 0.8);
+  LineMapperParameters parameters = independentViews();
+  parameters.sigma_floor = 0.0;
+  parameters.max_sigma = 1.0;
+  LineMapper mapper(parameters);
+  constexpr int kLines = 200;
+  for (int k = 0; k < kLines; ++k) {
+    for (int i = 0; i < 20; ++i) {
+      TrackedLine line = seen(kStart, kEnd, poseAt(i), static_cast<std::uint32_t>(i) + 1, start_noise(random),
+                              end_noise(random));
+      line.id = static_cast<std::uint64_t>(k);
+      line.covariance_px = {0.01F, 0.0F, 0.64F};
+      mapper.add(frameOf(i, {line}), poseAt(i));
+    }
+    mapper.finish();
+  }
+  const Eigen::Vector3d direction = (kEnd - kStart).normalized();
+  const auto across = [&](const Eigen::Vector3d& off) {
+    return (off - off.dot(direction) * direction).norm();
+  };
+  double start_squares = 0.0;
+  double end_squares = 0.0;
+  const auto lines = mapper.lines();
+  ASSERT_GT(lines.size(), kLines * 9U / 10U);
+  for (const MappedLine& line : lines) {
+    EXPECT_LT(line.sigma_start, 0.5 * line.sigma_end);
+    start_squares += std::pow(across(line.start - kStart) / line.sigma_start, 2);
+    end_squares += std::pow(across(line.end - kEnd) / line.sigma_end, 2);
+  }
+  for (const double squares : {start_squares, end_squares}) {
+    EXPECT_GT(squares / static_cast<double>(lines.size()), 0.8);
+    EXPECT_LT(squares / static_cast<double>(lines.size()), 2.2);
+  }
+}
+
 TEST(LineMapper, TakesTheLongerPartOfFirstAndLastView) {
   LineMapper mapper(independentViews());
   const Eigen::Vector3d middle = 0.5 * (kStart + kEnd);

@@ -145,6 +145,25 @@ TEST(MotionPrior, TakesTheImuWhereItIsRight) {
   }
 }
 
+TEST(MotionPrior, TakesTheImuAtItsOwnStampsOfBothImages) {
+  const Eigen::Vector3d degrees(2.5, -2.0, 0.0);
+  for (const std::int64_t offset_ms : {20, -20}) {
+    // Samples around the images by the clock of the IMU, in which the camera turns between them alone.
+    for (const bool told : {true, false}) {
+      MotionPriorParameters parameters = prior("imu");
+      parameters.imu_time_offset = told ? std::to_string(1e-3 * static_cast<double>(offset_ms)) : "0";
+      MotionPrior shifted(parameters);
+      shifted.setCamera(camera());
+      shifted.setImuRotation(kCameraFromImu);
+      addGyro(shifted, offset_ms - 1, offset_ms + 54, degrees);
+      shifted.predict(view(turned({0, 0, 0})), 0);
+      const MotionPrediction prediction = shifted.predict(view(turned(degrees)), kPeriod);
+      EXPECT_STREQ(prediction.sourceName(), told ? "imu" : "image") << offset_ms;
+      EXPECT_EQ(shifted.imuTimeOffset(), told ? 1e-3 * static_cast<double>(offset_ms) : 0.0);
+    }
+  }
+}
+
 TEST(MotionPrior, AWrongImuIsRefusedAndNeverWorseThanNone) {
   for (const char* name : {"imu", "auto"}) {
     for (const Eigen::Vector3d& degrees : kFastTurns) {

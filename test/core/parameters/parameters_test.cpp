@@ -55,6 +55,26 @@ TEST(Parameters, EveryBrokenRangeIsSaid) {
   EXPECT_EQ(check(few).front(), "parameter min_lines is 100, needs at most max_lines, which is 50");
 }
 
+TEST(Parameters, TheImuTimeOffsetIsANumberOfSecondsOrAuto) {
+  for (const char* good : {"0", "-0.0123", "0.5", "auto"}) {
+    LineTrackerParameters parameters;
+    parameters.motion.imu_time_offset = good;
+    EXPECT_TRUE(check(parameters).empty()) << good;
+  }
+  for (const char* bad : {"", "late", "0.02s", "0.6", "nan"}) {
+    LineTrackerParameters parameters;
+    parameters.motion.imu_time_offset = bad;
+    ASSERT_EQ(check(parameters).size(), 1U) << bad;
+    EXPECT_NE(check(parameters).front().find("needs auto or a number in -0.5..0.5 [s]"), std::string::npos);
+  }
+  MotionPriorParameters motion;
+  EXPECT_EQ(givenImuTimeOffset(motion), 0.0);
+  motion.imu_time_offset = "-0.0123";
+  EXPECT_EQ(givenImuTimeOffset(motion), -0.0123);
+  motion.imu_time_offset = "auto";
+  EXPECT_FALSE(givenImuTimeOffset(motion));
+}
+
 TEST(Parameters, EveryValueReadsBackAsItIsWritten) {
   LineTrackerParameters parameters;
   ParameterTable table = tableOf(parameters);

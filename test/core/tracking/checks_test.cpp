@@ -58,6 +58,23 @@ class Checks : public testing::Test {
   FrameStatistics statistics_;
 };
 
+TEST_F(Checks, DepthCheckLosesTheFewWhoseMovementContradictsTheirDepth) {
+  DepthCheck check;
+  EXPECT_EQ(check.reason(), LossReason::kDepth);
+  for (int i = 0; i < 10; ++i) add(kHorizontal).depth_conflict = i == 3 || i == 7;
+  check.apply(area_, tracks_, statistics_);
+  for (std::size_t i = 0; i < 10; ++i) {
+    EXPECT_EQ(tracks_.state(i).loss, i == 3 || i == 7 ? LossReason::kDepth : LossReason::kCount) << i;
+  }
+}
+
+TEST_F(Checks, DepthCheckLosesNoneWhenManyContradictSinceTheMotionMayBeWrong) {
+  DepthCheck check;
+  for (int i = 0; i < 10; ++i) add(kHorizontal).depth_conflict = i < 3;
+  check.apply(area_, tracks_, statistics_);
+  for (std::size_t i = 0; i < 10; ++i) EXPECT_FALSE(tracks_.state(i).lost()) << i;
+}
+
 TEST_F(Checks, ALineMustNotBecomeLongerOrShorterThanMaxLengthRatio) {
   LengthRatioCheck check(1.5);
   EXPECT_EQ(check.reason(), LossReason::kLengthRatio);

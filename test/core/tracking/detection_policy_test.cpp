@@ -46,6 +46,24 @@ TEST(ReplenishPolicy, DetectsWhenTheNumberOfLinesFallsBelowTheRatio) {
   EXPECT_TRUE(policy->isDue(state));
 }
 
+TEST(ReplenishPolicy, DoesNotWaitForTheIntervalWhenMostLinesAreGone) {
+  const auto policy = makeReplenishPolicy(parameters());
+  DetectionState state = nothingLost();
+  state.images_since_detection = 1;
+  state.lines = 50;
+  EXPECT_FALSE(policy->isDue(state));
+  state.lines = 49;
+  EXPECT_TRUE(policy->isDue(state));
+}
+
+TEST(ReplenishPolicy, WaitsForTheIntervalWhereTheLastDetectionFoundNothing) {
+  const auto policy = makeReplenishPolicy(parameters());
+  DetectionState state = nothingLost();
+  state.images_since_detection = 1;
+  state.lines = state.lines_after_detection = 0;
+  EXPECT_FALSE(policy->isDue(state));
+}
+
 TEST(ReplenishPolicy, DetectsWhenTheCoverageFallsBelowTheRatio) {
   const auto policy = makeReplenishPolicy(parameters());
   DetectionState state = nothingLost();
@@ -64,10 +82,10 @@ TEST(ReplenishPolicy, DetectsWhenFewerThanMinLinesAreLeft) {
   EXPECT_TRUE(policy->isDue(state));
 }
 
-TEST(ReplenishPolicy, WaitsForTheDetectionIntervalHoweverFewLinesAreLeft) {
+TEST(ReplenishPolicy, WaitsForTheDetectionIntervalWhileHalfOfTheLinesAreLeft) {
   const auto policy = makeReplenishPolicy(parameters());
   DetectionState state = nothingLost();
-  state.lines = 0;
+  state.lines = 50;
   state.coverage = 0.0F;
   state.images_since_detection = 2;
   EXPECT_FALSE(policy->isDue(state));

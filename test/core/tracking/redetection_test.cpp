@@ -42,9 +42,9 @@ std::vector<Rectangle> nested(int count) {
   std::vector<Rectangle> rectangles;
   for (int i = 0; i < count; ++i) {
     const float x = 120.0F + 160.0F * static_cast<float>(i);
-    rectangles.push_back(squareAt(x, 200.0F, 74.0F, 220.0F));
-    rectangles.push_back(squareAt(x, 200.0F, 56.0F, 60.0F));
-    rectangles.push_back(squareAt(x, 200.0F, 38.0F, 220.0F));
+    rectangles.push_back(squareAt(x, 200.0F, 150.0F, 220.0F));
+    rectangles.push_back(squareAt(x, 200.0F, 120.0F, 60.0F));
+    rectangles.push_back(squareAt(x, 200.0F, 90.0F, 220.0F));
   }
   return rectangles;
 }

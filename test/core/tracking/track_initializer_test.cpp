@@ -136,5 +136,48 @@ TEST_F(TrackInitializerTest, ALineWithoutAnEdgeUnderMinDetectionSupportOfItIsLef
   EXPECT_LT(strict, tracks_.size());
 }
 
+/// A horizontal edge over the whole width, with gaps of `gap` px where the gray is that of the dark side.
+cv::Mat brokenEdge(float bright, int period, int gap) {
+  std::vector<Rectangle> rectangles;
+  for (int x = 0; x < kSize.width; x += period) {
+    rectangles.push_back(
+        {static_cast<float>(x + gap), 100.0F, static_cast<float>(x + period), 300.0F, bright});
+  }
+  return rectanglesImage(kSize, rectangles);
+}
+
+TEST_F(TrackInitializerTest, PiecesOfOneEdgeAreOneTrackOverAGapThatTheDetectorDoesNotJump) {
+  // Pieces of 308 px; the upper and the lower edge of both.
+  const cv::Mat image = brokenEdge(200.0F, 320, 12);
+  options_.grow = false;
+  addTracks(image);
+  const auto isLevel = [](const TrackedLine& line) {
+    return std::abs(line.segment.end.y() - line.segment.start.y()) < 1.0F;
+  };
+  EXPECT_EQ(std::count_if(tracks_.lines().begin(), tracks_.lines().end(), isLevel), 4);
+  tracks_.clear();
+  options_.grow = true;
+  addTracks(image);
+  EXPECT_EQ(std::count_if(tracks_.lines().begin(), tracks_.lines().end(), isLevel), 2);
+  for (const TrackedLine& line : tracks_.lines()) {
+    if (!isLevel(line)) continue;
+    EXPECT_GT(line.segment.length(), 600.0F);
+  }
+}
+
+TEST_F(TrackInitializerTest, AClearEdgeMayHaveAQuarterOfTheGapsOfAFaintOne) {
+  // Gaps over 11 %.
+  const auto count = [this](float bright) {
+    tracks_.clear();
+    addTracks(brokenEdge(bright, 36, 4));
+    return std::count_if(tracks_.lines().begin(), tracks_.lines().end(),
+                         [](const TrackedLine& line) { return line.segment.length() > 300.0F; });
+  };
+  EXPECT_EQ(count(140.0F), 2);
+  EXPECT_EQ(count(240.0F), 0);
+  parameters_.min_detection_support = 0.5;
+  EXPECT_EQ(count(240.0F), 2);
+}
+
 }  // namespace
 }  // namespace tet_line_tracker

@@ -69,5 +69,31 @@ TEST(TrackTable, TheOtherTracksKeepTheirOrderAndTheirState) {
   }
 }
 
+TEST(TrackTable, ALineThatGrewHasTheParallaxOfItsNewEnds) {
+  TrackTable tracks;
+  // Turned about its middle by parallax: 1 px at each end of 80 px.
+  tracks.add(edgeOn({{10.0F, 51.0F}, {90.0F, 49.0F}}, 5.0F), LineBend{});
+  TrackState& state = tracks.state(0);
+  state.rotated = {{10.0F, 50.0F}, {90.0F, 50.0F}};
+  state.template_due = false;
+  const LineSegment grown{{-30.0F, 52.0F}, {90.0F, 49.0F}};
+  state.setGrown(tracks.line(0).segment, grown);
+  tracks.line(0).segment = grown;
+  EXPECT_TRUE(state.template_due);
+  tracks.predictParallax();
+  EXPECT_NEAR(state.start_parallax.y(), 0.8F * 2.0F, 0.01F);
+  EXPECT_NEAR(state.end_parallax.y(), -0.8F, 0.01F);
+}
+
+TEST(TrackTable, CountsTheCellsThatABentLineCrosses) {
+  TrackTable tracks;
+  EdgeFit edge;
+  edge.segment = {{0.0F, 90.0F}, {639.0F, 90.0F}};
+  tracks.add(edge, LineBend{{60.0F}});
+  // Eight cells along the chord; the curve rises into the row above in six columns, two of which show both
+  // rows.
+  EXPECT_FLOAT_EQ(48.0F * tracks.coverage({640, 480}), 10.0F);
+}
+
 }  // namespace
 }  // namespace tet_line_tracker

@@ -23,9 +23,9 @@ LineTrackerParameters named(const char* method) {
 
 TEST(TrackingMethod, JointAppliesEveryCheckInTheOrderOfTheLossReasons) {
   const std::vector<LossReason> expected{
-      LossReason::kLengthRatio, LossReason::kAngle,    LossReason::kSupport,
-      LossReason::kBorder,      LossReason::kShort,    LossReason::kFieldOfView,
-      LossReason::kMask,        LossReason::kEdgeJump, LossReason::kDuplicate};
+      LossReason::kLengthRatio, LossReason::kAngle,       LossReason::kSupport, LossReason::kBorder,
+      LossReason::kShort,       LossReason::kFieldOfView, LossReason::kMask,    LossReason::kDepth,
+      LossReason::kEdgeJump,    LossReason::kDuplicate};
   EXPECT_EQ(reasonsOf(named("joint")), expected);
 }
 
@@ -33,6 +33,7 @@ TEST(TrackingMethod, JointWithoutTheRefitHasNoChecksOfTheEdge) {
   LineTrackerParameters parameters = named("joint");
   parameters.refiner.refine = false;
   EXPECT_EQ(makeTrackingMethod(parameters).refiner, nullptr);
+  EXPECT_FALSE(makeTrackingMethod(parameters).grower);
   for (const LossReason reason : reasonsOf(parameters)) {
     EXPECT_NE(reason, LossReason::kSupport);
     EXPECT_NE(reason, LossReason::kEdgeJump);
@@ -44,6 +45,7 @@ TEST(TrackingMethod, PaperKnowsNeitherMotionPriorNorRefitNorPlausibility) {
   EXPECT_EQ(method.motion.prior, "none");
   EXPECT_FALSE(method.motion.predict_parallax);
   EXPECT_EQ(method.refiner, nullptr);
+  EXPECT_FALSE(method.grower);
   EXPECT_EQ(method.dead_band_px, 0.0F);
   const std::vector<LossReason> expected{LossReason::kBorder, LossReason::kShort, LossReason::kFieldOfView,
                                          LossReason::kMask};

@@ -1,0 +1,176 @@
+#include "motion/ego_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "geometry/so3.h"
+
+namespace tet_line_tracker {
+namespace {
+
+constexpr double kGyroSigma = 0.001;   ///< of a rotation that the gyroscope measured, besides its bias [rad]
+constexpr double kImageSigma = 0.04;   ///< of one that the images alone show: it takes up parallax [rad]
+constexpr std::size_t kMinRatios = 5;  ///< corners that must tell how much longer a step is than the last
+constexpr double kMaxRatio = 4.0;
+constexpr double kMinMovement = 2.0;  ///< by parallax, for a corner to tell that [px]
+constexpr double kNewWeight = 0.6;    ///< of a measured inverse depth against that of the images before
+constexpr double kMinDepth = 1e-4;    ///< corners at infinity count as this far [1 / step]
+
+}  // namespace
+
+void EgoMotionTracker::setCamera(std::shared_ptr<const CameraModel> camera) {
+  if (camera == camera_) return;
+  camera_ = std::move(camera);
+  if (camera_) focal_ = 0.5 * (camera_->calibration().fx + std::abs(camera_->calibration().fy));
+  reset();
+}
+
+void EgoMotionTracker::reset() {
+  corners_.clear();
+  known_.assign(corners_.size(), Known());
+  translation_.setZero();
+  rotation_.setZero();
+  last_interval_s_ = 0.0;
+}
+
+void EgoMotionTracker::expect(const MotionPrediction& prediction, double interval_s) {
+  const double ratio = last_interval_s_ > 0.0 ? interval_s / last_interval_s_ : 1.0;
+  const Eigen::Vector3d step = ratio * (prediction.rotation * translation_);
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    CornerTracker::Corner& corner = corners_.corner(i);
+    if (!corner.used) continue;
+    Known& known = known_[i];
+    known.pixel_before = corner.pixel;
+    known.inverse_before = 0.0;
+    corner.expected = corner.pixel;
+    corner.sure = false;
+    const std::optional<Eigen::Vector2d> pixel =
+        camera_->project(prediction.rotation * known.ray + known.inverse_depth * step);
+    if (!pixel || !pixel->allFinite()) continue;
+    corner.expected = pixel->cast<float>();
+    corner.sure = known.inverse_depth > 0.0;
+  }
+}
+
+void EgoMotionTracker::collectPairs(const MotionPrediction& prediction) {
+  pairs_.clear();
+  slots_.clear();
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    CornerTracker::Corner& corner = corners_.corner(i);
+    if (!corner.used) continue;
+    const std::optional<Eigen::Vector2d> now = camera_->normalize(corner.pixel.cast<double>());
+    if (!now) {
+      corner.used = false;
+      continue;
+    }
+    PointPair& pair = pairs_.emplace_back();
+    pair.before = prediction.rotation * known_[i].ray;
+    pair.now = now->homogeneous();
+    slots_.push_back(i);
+  }
+}
+
+double EgoMotionTracker::stepRatio(const EgoMotion& motion, double fallback) {
+  ratios_.clear();
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const double before = known_[slots_[k]].inverse_depth;
+    const PointPair& pair = pairs_[k];
+    const double movement =
+        focal_ * pair.inverse_depth * pair.now.cross(motion.translation).norm() / pair.now.squaredNorm();
+    if (pair.inlier && before > 0.0 && movement > kMinMovement)
+      ratios_.push_back(pair.inverse_depth / before);
+  }
+  if (ratios_.size() < kMinRatios) return fallback;
+  const auto middle = ratios_.begin() + static_cast<std::ptrdiff_t>(ratios_.size() / 2);
+  std::nth_element(ratios_.begin(), middle, ratios_.end());
+  return std::clamp(*middle, 1.0 / kMaxRatio, kMaxRatio);
+}
+
+void EgoMotionTracker::learnDepths(const EgoMotion& motion, double ratio) {
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const PointPair& pair = pairs_[k];
+    Known& known = known_[slots_[k]];
+    if (!pair.inlier) {
+      corners_.corner(slots_[k]).used = false;
+      continue;
+    }
+    double inverse = std::max(kMinDepth, pair.inverse_depth);
+    if (known.inverse_depth > 0.0) {
+      inverse = kNewWeight * inverse + (1.0 - kNewWeight) * ratio * known.inverse_depth;
+    }
+    known.inverse_before = inverse;
+    // As the camera of this image sees it.
+    const double depth = pair.before.z() + inverse * motion.translation.z();
+    known.inverse_depth = depth > 0.1 ? inverse / depth : 0.0;
+  }
+}
+
+void EgoMotionTracker::update(const ImagePyramid& pyramid, double interval_s,
+                              const std::optional<Turn>& measured, MotionPrediction& prediction) {
+  if (!camera_) return;
+  expect(prediction, interval_s);
+  corners_.follow(pyramid);
+  collectPairs(prediction);
+  EpipolarEstimator::Prior prior;
+  prior.rotation_sigma = kImageSigma;
+  if (measured) {
+    prior.rotation = so3Log(measured->rotation * prediction.rotation.transpose());
+    prior.rotation_sigma = kGyroSigma + measured->deviation;
+  }
+  const double elapsed = last_interval_s_ > 0.0 ? interval_s / last_interval_s_ : 1.0;
+  prior.steady = so3Log(so3Exp(elapsed * rotation_).toRotationMatrix() * prediction.rotation.transpose());
+  prior.translation = prediction.rotation * translation_;
+  EgoMotion motion = estimator_.estimate(pairs_, focal_, prior);
+  if (measured && !measured->trusted && !motion.rotates) {
+    prior.rotation.setZero();
+    prior.rotation_sigma = kImageSigma;
+    motion = estimator_.estimate(pairs_, focal_, prior);
+  }
+  if (motion.known()) {
+    prediction.rotation = so3Exp(motion.rotation).toRotationMatrix() * prediction.rotation;
+    for (PointPair& pair : pairs_) pair.before += motion.rotation.cross(pair.before);
+    prediction.step_ratio = translation_.isZero() ? 0.0 : stepRatio(motion, elapsed);
+    prediction.translation = motion.translation;
+    prediction.inliers = motion.inliers;
+    learnDepths(motion, prediction.step_ratio);
+  } else {
+    if (motion.rotates)
+      prediction.rotation = so3Exp(motion.rotation).toRotationMatrix() * prediction.rotation;
+    for (Known& known : known_) known.inverse_depth = known.inverse_before = 0.0;
+  }
+  prediction.confirmed = motion.rotates;
+  for (std::size_t k = 0; k < pairs_.size(); ++k) known_[slots_[k]].ray = pairs_[k].now;
+  corners_.extractTemplates(pyramid);
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    CornerTracker::Corner& corner = corners_.corner(i);
+    if (!corner.used || !corner.fresh) continue;
+    const std::optional<Eigen::Vector2d> ray = camera_->normalize(corner.pixel.cast<double>());
+    corner.used = ray.has_value();
+    known_[i] = Known();
+    known_[i].ray = ray.value_or(Eigen::Vector2d::Zero()).homogeneous();
+  }
+  translation_ = prediction.translation;
+  rotation_ = so3Log(prediction.rotation);
+  last_interval_s_ = interval_s;
+}
+
+std::optional<DepthGuess> EgoMotionTracker::depthNear(const Eigen::Vector2f& pixel) const {
+  // The nearest ones count most.
+  double weights = 0.0;
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const Known& known : known_) {
+    if (!(known.inverse_before > 0.0)) continue;
+    const auto distance = static_cast<double>((known.pixel_before - pixel).squaredNorm());
+    const double weight = 1.0 / ((distance + 100.0) * (distance + 100.0));
+    weights += weight;
+    sum += weight * known.inverse_before;
+    squares += weight * known.inverse_before * known.inverse_before;
+  }
+  if (!(weights > 0.0)) return std::nullopt;
+  const double mean = sum / weights;
+  return DepthGuess{mean, std::max(0.0, squares / weights - mean * mean) + 0.09 * mean * mean};
+}
+
+}  // namespace tet_line_tracker

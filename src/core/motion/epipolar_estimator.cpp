@@ -1,0 +1,205 @@
+#include "motion/epipolar_estimator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+namespace tet_line_tracker {
+namespace {
+
+constexpr std::size_t kMinPairs = 10;
+constexpr double kMinParallax = 0.7;  ///< median below which a direction is noise [px]
+constexpr int kHypotheses = 80;
+constexpr double kRansacScale = 2.0;  ///< distances count up to this one; the rotation is not exact yet [px]
+constexpr double kInlierDistance = 1.5;  ///< [px]
+constexpr double kRobustScale = 0.7;     ///< of the weights in the fit [px]
+constexpr int kIterations = 7;
+constexpr double kSureRotation = 0.005;  ///< with more, several directions may fit [rad]
+constexpr double kMinSine = 0.05;  ///< towards the epipole the distance from the epipolar plane says little
+constexpr double kMinInliers = 0.5;
+
+/// Distance of a point from its epipolar plane [px].
+double scaleOf(const Eigen::Vector3d& before, const Eigen::Vector3d& translation, double per_px) {
+  const double sine = before.cross(translation).norm() / before.norm();
+  return per_px / std::max(kMinSine, sine);
+}
+
+}  // namespace
+
+double EpipolarEstimator::costOf(const Eigen::Vector3d& translation) const {
+  double sum = 0.0;
+  for (const Constraint& constraint : constraints_) {
+    const double distance =
+        translation.dot(constraint.cross) * scaleOf(constraint.before, translation, constraint.per_px);
+    sum += std::min(kRansacScale * kRansacScale, distance * distance);
+  }
+  return sum;
+}
+
+/// Of points that would lie behind the camera; the direction or its opposite, whichever has fewer.
+double EpipolarEstimator::behindCost(const std::vector<PointPair>& pairs, const Candidate& candidate) const {
+  double ahead = 0.0;
+  double behind = 0.0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Eigen::Vector3d before = pairs[i].before + candidate.rotation.cross(pairs[i].before);
+    const Eigen::Vector3d cross = before.cross(pairs[i].now);
+    const Eigen::Vector3d across = pairs[i].now.cross(candidate.translation);
+    const double norm = across.norm();
+    const double distance =
+        candidate.translation.dot(cross) * scaleOf(before, candidate.translation, constraints_[i].per_px);
+    if (!(norm > kMinSine * pairs[i].now.norm()) || std::abs(distance) > kInlierDistance) continue;
+    const double movement = constraints_[i].per_px * across.dot(cross) / norm / kRobustScale;
+    const double square = movement * movement;
+    (movement < 0.0 ? behind : ahead) += square / (1.0 + square);
+  }
+  return std::min(ahead, behind);
+}
+
+/// Gauss-Newton for the correction of the rotation and for the direction in its tangent plane.
+EpipolarEstimator::Candidate EpipolarEstimator::fit(const std::vector<PointPair>& pairs, const Prior& known,
+                                                    const Eigen::Vector3d& rotation,
+                                                    const Eigen::Vector3d& translation) const {
+  Candidate candidate{rotation, translation, std::numeric_limits<double>::infinity()};
+  const double prior = 1.0 / (known.rotation_sigma * known.rotation_sigma);
+  for (int iteration = 0; iteration <= kIterations; ++iteration) {
+    Eigen::Vector3d& best = candidate.translation;
+    const Eigen::Vector3d u = best.unitOrthogonal();
+    const Eigen::Vector3d v = best.cross(u);
+    // Wide at first, so that it does not end where it begins.
+    const double width = kRobustScale * std::max(1.0, 4.0 - iteration);
+    const double inverse_square = 1.0 / (width * width);
+    Eigen::Matrix<double, 5, 5> hessian = Eigen::Matrix<double, 5, 5>::Zero();
+    Eigen::Matrix<double, 5, 1> gradient = Eigen::Matrix<double, 5, 1>::Zero();
+    const Eigen::Vector3d from_prior = candidate.rotation - known.rotation;
+    double cost = prior * from_prior.squaredNorm();
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const Eigen::Vector3d before = pairs[i].before + candidate.rotation.cross(pairs[i].before);
+      const Eigen::Vector3d cross = before.cross(pairs[i].now);
+      const double scale = scaleOf(before, best, constraints_[i].per_px);
+      const double distance = scale * best.dot(cross);
+      const double shrink = 1.0 / (1.0 + distance * distance * inverse_square);
+      cost += distance * distance * inverse_square * shrink;
+      Eigen::Matrix<double, 5, 1> row;
+      row.head<3>() = scale * before.cross(pairs[i].now.cross(best));
+      row[3] = scale * u.dot(cross);
+      row[4] = scale * v.dot(cross);
+      const double weight = inverse_square * shrink * shrink;
+      hessian.noalias() += weight * row * row.transpose();
+      gradient.noalias() += weight * distance * row;
+    }
+    if (iteration == kIterations) {
+      candidate.cost = cost + behindCost(pairs, candidate);
+      break;
+    }
+    hessian.topLeftCorner<3, 3>().diagonal().array() += prior;
+    hessian.diagonal().array() += 1e-6;
+    gradient.head<3>() += prior * from_prior;
+    const Eigen::Matrix<double, 5, 1> step = -hessian.ldlt().solve(gradient);
+    if (!step.allFinite()) {
+      candidate.cost = std::numeric_limits<double>::infinity();
+      break;
+    }
+    candidate.rotation += step.head<3>();
+    best = (best + std::clamp(step[3], -0.5, 0.5) * u + std::clamp(step[4], -0.5, 0.5) * v).normalized();
+  }
+  return candidate;
+}
+
+double EpipolarEstimator::parallaxOf(const std::vector<PointPair>& pairs, double focal,
+                                     const Eigen::Vector3d& rotation) {
+  parallax_.clear();
+  for (const PointPair& pair : pairs) {
+    const Eigen::Vector3d before = pair.before + rotation.cross(pair.before);
+    parallax_.push_back(focal * before.cross(pair.now).norm() / (before.norm() * pair.now.norm()));
+  }
+  const auto middle = parallax_.begin() + static_cast<std::ptrdiff_t>(parallax_.size() / 2);
+  std::nth_element(parallax_.begin(), middle, parallax_.end());
+  return *middle;
+}
+
+EgoMotion EpipolarEstimator::estimate(std::vector<PointPair>& pairs, double focal, const Prior& prior) {
+  EgoMotion motion;
+  for (PointPair& pair : pairs) pair.inlier = false;
+  if (pairs.size() < kMinPairs) return motion;
+  constraints_.clear();
+  for (const PointPair& pair : pairs) {
+    const Eigen::Vector3d before = pair.before + prior.rotation.cross(pair.before);
+    constraints_.push_back({before.cross(pair.now), focal / (before.norm() * pair.now.norm()), before});
+  }
+  if (parallaxOf(pairs, focal, prior.rotation) < kMinParallax) {
+    motion.rotates = true;
+    motion.rotation = prior.rotation;
+    return motion;
+  }
+
+  Eigen::Vector3d sampled = Eigen::Vector3d::Zero();
+  double sampled_cost = std::numeric_limits<double>::infinity();
+  std::uint32_t state = 12345;
+  const auto draw = [&state](std::size_t count) {
+    state = state * 1664525U + 1013904223U;
+    return static_cast<std::size_t>((static_cast<std::uint64_t>(state) * count) >> 32U);
+  };
+  for (int i = 0; i < kHypotheses; ++i) {
+    const std::size_t a = draw(pairs.size());
+    const std::size_t b = draw(pairs.size());
+    const Eigen::Vector3d direction = constraints_[a].cross.cross(constraints_[b].cross);
+    const double norm = direction.norm();
+    if (!(norm > 1e-12)) continue;
+    const double cost = costOf(direction / norm);
+    if (cost < sampled_cost) {
+      sampled_cost = cost;
+      sampled = direction / norm;
+    }
+  }
+  Candidate found{prior.rotation, Eigen::Vector3d::Zero(), std::numeric_limits<double>::infinity()};
+  const auto tryFrom = [&](const Eigen::Vector3d& rotation, const Eigen::Vector3d& direction) {
+    if (direction.isZero()) return;
+    const Candidate candidate = fit(pairs, prior, rotation, direction);
+    if (candidate.cost < found.cost) found = candidate;
+  };
+  tryFrom(prior.rotation, sampled);
+  tryFrom(prior.rotation, prior.translation);
+  if (prior.rotation_sigma > kSureRotation) {
+    tryFrom(prior.steady, prior.translation);
+    for (int axis = 0; axis < 3; ++axis) tryFrom(prior.rotation, Eigen::Vector3d::Unit(axis));
+  }
+  if (found.translation.isZero()) return motion;
+  const Eigen::Vector3d rotation = found.rotation;
+  Eigen::Vector3d best = found.translation;
+
+  // Points lie before the camera: that tells the direction from its opposite.
+  double sign = 0.0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    PointPair& pair = pairs[i];
+    const Eigen::Vector3d before = pair.before + rotation.cross(pair.before);
+    const Eigen::Vector3d cross = before.cross(pair.now);
+    pair.inlier = std::abs(best.dot(cross)) * scaleOf(before, best, constraints_[i].per_px) < kInlierDistance;
+    const Eigen::Vector3d across = pair.now.cross(best);
+    const double square = across.squaredNorm();
+    pair.inverse_depth = square > 1e-9 ? across.dot(cross) / square : 0.0;
+    if (pair.inlier) {
+      const double px = std::sqrt(square) * focal * pair.inverse_depth / pair.now.squaredNorm();
+      sign += std::clamp(px, -3.0, 3.0);
+    }
+  }
+  if (sign < 0.0) best = -best;
+  for (PointPair& pair : pairs) {
+    if (sign < 0.0) pair.inverse_depth = -pair.inverse_depth;
+    const double px = pair.now.cross(best).norm() * focal * pair.inverse_depth / pair.now.squaredNorm();
+    if (px < -kInlierDistance) pair.inlier = false;
+    if (pair.inlier) ++motion.inliers;
+  }
+  if (static_cast<double>(motion.inliers) < kMinInliers * static_cast<double>(pairs.size())) return motion;
+  motion.rotates = true;
+  motion.rotation = rotation;
+  // A rotation that explains all of it leaves the direction to chance.
+  if (parallaxOf(pairs, focal, rotation) < kMinParallax) return motion;
+  motion.translation = best;
+  return motion;
+}
+
+}  // namespace tet_line_tracker
