@@ -55,7 +55,7 @@ declare -A commands=(
   [motion]="scripts/measure_motion.sh $folder/motion '1001 1002' $(seconds 20)"
   [lens]="scripts/measure_lens.sh $folder/lens 1001 $(seconds 10)"
   [map]="scripts/measure_map.sh $folder/map 1001 $(seconds 40)"
-  [paper]="scripts/reproduce_paper $folder/paper --simulate $(seconds 6) ${datasets[*]}"
+  [paper]="python3 scripts/reproduce_paper $folder/paper --simulate $(seconds 6) ${datasets[*]}"
   [speed]="scripts/benchmark.sh"
   [contract]="scripts/check_contract.sh $(if $short; then echo 10; else echo 60; fi)")
 

@@ -52,7 +52,7 @@ class Seeds(unittest.TestCase):
         self.assertIn('seed 7 is for --tuning', output)
 
     def test_reproduce_paper_refuses_tuning_seeds(self):
-        status, output = shell('scripts/reproduce_paper results --simulate 2 --seed 999')
+        status, output = shell('python3 scripts/reproduce_paper results --simulate 2 --seed 999')
         self.assertEqual(status, 2, output)
         self.assertIn('seed 999 is for tuning', output)
 
