@@ -13,12 +13,17 @@ import shlex
 import shutil
 import subprocess
 import sys
+import time
 import xml.etree.ElementTree as ElementTree
 
 import rooms
+import std_headers
 
 # clang-format's style differs between its versions; this one is Debian 12's.
 CLANG_FORMAT_VERSION = 14
+# From Ubuntu 20.04's to Debian 12's. Newer ones have checks that this project has not been read with.
+CLANG_TIDY_VERSIONS = range(10, 15)
+PROGRESS_PERIOD_S = 30.0
 MAX_TIDY_BATCH = 8  # source files; more would leave a processor idle at the end
 # Spelled so that this file does not find itself.
 MACHINE_PATH = re.compile(r'(?:^|[^\w.~)}\]/*-])/(?:ho' r'me|wo' r'rk|ro' r'ot|tm' r'p|Us' r'ers)/')
@@ -42,6 +47,10 @@ def require(tool):
         raise Skipped(tool + ' is not installed')
 
 
+def version_of(tool):
+    return int(re.search(r'version (\d+)', run(tool, '--version')).group(1))
+
+
 def project_files():
     """Files that belong to the project: what git would deliver, or without git all but build/."""
     try:
@@ -60,7 +69,7 @@ def read(name):
 
 def check_format(files):
     require('clang-format')
-    version = int(re.search(r'version (\d+)', run('clang-format', '--version')).group(1))
+    version = version_of('clang-format')
     if version != CLANG_FORMAT_VERSION:
         raise Skipped('clang-format {} formats differently from {}'.format(version, CLANG_FORMAT_VERSION))
     run('clang-format', '--dry-run', '--Werror', *(f for f in files if f.endswith(('.cpp', '.h'))))
@@ -136,6 +145,9 @@ def run_tidy(units, entries, folder):
 def check_tidy(files, build):
     """clang-tidy over src, in batches; what passed is read again only when it, a header or the rules changed."""
     require('clang-tidy')
+    if version_of('clang-tidy') not in CLANG_TIDY_VERSIONS:
+        raise Skipped('clang-tidy {} is none of {} to {}'.format(version_of('clang-tidy'), CLANG_TIDY_VERSIONS[0],
+                                                                CLANG_TIDY_VERSIONS[-1]))
     with open(os.path.join(build, 'compile_commands.json')) as file:
         entries = {os.path.relpath(entry['file']): entry for entry in json.load(file)}
     units = [f for f in files if f.startswith('src/') and f.endswith('.cpp')]
@@ -172,9 +184,20 @@ def check_tidy(files, build):
     batches = tidy_batches(units, lambda unit: tuple(tidy_flags(entries[unit])), lambda unit: read(unit).decode())
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         results = [pool.submit(tidy, batch) for batch in batches]
+        told = time.monotonic()
+        for done, _ in enumerate(concurrent.futures.as_completed(results), 1):
+            if time.monotonic() - told > PROGRESS_PERIOD_S:
+                told = time.monotonic()
+                print('lint clang_tidy: {} of {} batches ...'.format(done, len(batches)), flush=True)
     complaints = [str(result.exception()) for result in results if result.exception() is not None]
     if complaints:
         raise RuntimeError('\n'.join(complaints))
+
+
+def check_std_headers(files):
+    found = std_headers.complaints({name: read(name).decode() for name in files if name.endswith(('.cpp', '.h'))})
+    if found:
+        raise RuntimeError('\n'.join(found))
 
 
 def check_catkin(_):
@@ -220,7 +243,7 @@ def main():
     build = sys.argv[1]
     files = project_files()
     checks = [('clang_format', check_format), ('catkin_lint', check_catkin), ('machine_paths', check_paths),
-              ('rooms', check_rooms), ('script_syntax', check_scripts), ('xml_syntax', check_xml),
+              ('rooms', check_rooms), ('std_headers', check_std_headers), ('script_syntax', check_scripts), ('xml_syntax', check_xml),
               ('clang_tidy', lambda names: check_tidy(names, build))]
     suite = ElementTree.Element('testsuite', name='lint')
     status = 0

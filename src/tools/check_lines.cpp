@@ -1,6 +1,7 @@
 // Holds the LineArray messages of bags against the rules of the message contract.
 
 #include <iostream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <stdexcept>
 
 #include <ros/callback_queue.h>
 #include <ros/ros.h>

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <limits>
+#include <stdexcept>
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>

@@ -5,6 +5,7 @@
 // An input that brings the process down is left in finding_NAME.bin in the current folder; given in place of
 // SECONDS, such a file is fed once.
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>

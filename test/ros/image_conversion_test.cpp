@@ -1,8 +1,10 @@
 #include "image_conversion.h"
 
 #include <gtest/gtest.h>
+
 #include <sensor_msgs/image_encodings.h>
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
 
 namespace tet_line_tracker {
 namespace {

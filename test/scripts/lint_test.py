@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of the batches in which scripts/lint.py gives source files to clang-tidy.   lint_test.py [RESULT.xml]"""
+"""Tests of the checks of scripts/lint.py.   lint_test.py [RESULT.xml]"""
 import os
 import shutil
 import tempfile
@@ -7,6 +7,7 @@ import unittest
 
 import cases
 import lint
+import std_headers
 
 SOURCE = '''#include <vector>
 
@@ -61,6 +62,29 @@ class Batches(unittest.TestCase):
         entry = {'directory': cases.ROOT, 'file': cases.ROOT + '/src/a.cpp',
                  'command': 'ccache /usr/bin/c++ -DNAME="x" -I.. -O3 -o dir/a.o -c {}/src/a.cpp'.format(cases.ROOT)}
         self.assertEqual(lint.tidy_flags(entry), ['/usr/bin/c++', '-DNAME=x', '-I..', '-O3'])
+
+
+class StdHeaders(unittest.TestCase):
+    def test_a_header_that_is_used_and_not_included_is_named(self):
+        found = std_headers.complaints({'src/core/a.cpp': '#include <vector>\nint b = std::max(1, 2);\n'})
+        self.assertEqual(found, ['src/core/a.cpp: std::max needs <algorithm>'])
+
+    def test_a_header_may_come_by_one_of_the_project(self):
+        sources = {'src/core/room/a.cpp': '#include "room/a.h"\nint b = std::max(1, 2);  // std::iota\n',
+                   'src/core/room/a.h': '#include <algorithm>\n'}
+        self.assertEqual(std_headers.complaints(sources), [])
+
+
+class Versions(unittest.TestCase):
+    def test_a_clang_tidy_that_the_project_was_not_read_with_is_skipped(self):
+        run, require = lint.run, lint.require
+        lint.require = lambda tool: None
+        lint.run = lambda *command: 'Debian LLVM version 19.1.7'
+        try:
+            with self.assertRaisesRegex(lint.Skipped, 'clang-tidy 19 is none of 10 to 14'):
+                lint.check_tidy([], 'nowhere')
+        finally:
+            lint.run, lint.require = run, require
 
 
 @unittest.skipUnless(shutil.which('clang-tidy'), 'clang-tidy is not installed')
@@ -132,4 +156,4 @@ class Tidy(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    cases.run(Batches, Tidy)
+    cases.run(Batches, Tidy, StdHeaders, Versions)

@@ -1,5 +1,6 @@
 #include "tet_line_tracker/camera/lens_bend.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>

@@ -1,5 +1,6 @@
 #include "motion/epipolar_estimator.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
