@@ -18,8 +18,9 @@ for argument in "$@"; do
   esac
 done
 
-requirePackages "${packages_build[@]}" "${packages_run[@]}"
-if $tests; then requirePackages "${packages_test[@]}"; fi
+packages=("${packages_build[@]}" "${packages_run[@]}")
+if $tests; then packages+=("${packages_test[@]}"); fi
+requirePackages "${packages[@]}"
 
 if [ ! -e "$build/CMakeCache.txt" ]; then
   options=(-G Ninja -DCMAKE_BUILD_TYPE=Release -DCATKIN_ENABLE_TESTING=OFF -DCMAKE_EXPORT_COMPILE_COMMANDS=ON "${options[@]}")
@@ -46,5 +47,5 @@ if [ -t 1 ]; then
   cmake --build "$build" --target "${targets[@]}" -- -j "$(nproc)"
 else
   # catkin's checks of messages run at every build: no news.
-  cmake --build "$build" --target "${targets[@]}" -- -j "$(nproc)" | { grep -v genmsg_check_deps || true; }
+  cmake --build "$build" --target "${targets[@]}" -- -j "$(nproc)" | { grep --line-buffered -v genmsg_check_deps || true; }
 fi

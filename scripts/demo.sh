@@ -17,8 +17,9 @@ for argument in "$@"; do
   esac
 done
 
-requirePackages "${packages_build[@]}" "${packages_run[@]}"
-if ! $headless; then requirePackages "${packages_rviz[@]}"; fi
+packages=("${packages_build[@]}" "${packages_run[@]}")
+if ! $headless; then packages+=("${packages_rviz[@]}"); fi
+requirePackages "${packages[@]}"
 requireLocalhost
 scripts/build.sh
 sourceSetup "$build/devel/setup.bash"
@@ -29,7 +30,8 @@ demo=$build/demo
 
 if ! $headless; then
   chooseMaster
-  echo "To look at topics from another terminal: export ROS_MASTER_URI=$ROS_MASTER_URI"
+  echo "To look at topics from another terminal (rostopic list, rosnode list, rosservice list):"
+  echo "  . '$build/devel/setup.bash'; export ROS_HOSTNAME=$ROS_HOSTNAME ROS_MASTER_URI=$ROS_MASTER_URI"
   exec roslaunch -p "${ROS_MASTER_URI##*:}" tet_line_tracker demo.launch bag:="$flight"
 fi
 
@@ -42,11 +44,11 @@ children+=($recorder)
 echo "Playing the flight through the node ..."
 roslaunch --wait tet_line_tracker demo.launch bag:="$flight" rviz:=false </dev/null >"$demo/launch.log" 2>&1 ||
   { tail -n 30 "$demo/launch.log" >&2; fail "the node or the player ended with an error (build/demo/launch.log)"; }
-kill -INT $recorder
+kill -INT $recorder 2>/dev/null || true
 wait $recorder || true
-[ -e "$tracks" ] || { tail -n 30 "$demo/launch.log" >&2; fail "the node published no lines (build/demo/launch.log)"; }
-
-"$tools/check_lines" "$tracks"
+# roslaunch ends with 0 also when the player did not start.
+[ -e "$tracks" ] && "$tools/check_lines" "$tracks" ||
+  { tail -n 30 "$demo/launch.log" >&2; fail "the node published no lines, or wrong ones (build/demo/launch.log)"; }
 "$tools/evaluate_tracks" "$tracks" | awk '
   NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i }
   NR == 2 { images = $column["images"]; lines = $column["lines"]; length_of_track = $column["length"] }
@@ -54,3 +56,7 @@ wait $recorder || true
     printf "%s images, %s lines per image, mean track length %s images\n", images, lines, length_of_track
     exit !(images > 0 && lines > 0)
   }'
+
+# The lines of the node over the images that it had.
+"$tools/paint_tracks" "$tracks" "$demo/picture.png" --images "$flight" --number 100
+echo "picture 100 with its lines: $demo/picture.png"

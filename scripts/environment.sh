@@ -42,7 +42,8 @@ if [ -e /opt/ros/noetic/setup.bash ]; then
   export PATH=/usr/sbin:/usr/bin:/sbin:/bin:$PATH
 fi
 
-# Installs those of the named Debian packages that are missing.
+# Installs those of the named Debian packages that are missing. Name all that a script needs at once, so that the line
+# which is printed where there is no sudo is the whole of it.
 requirePackages() {
   local installed package missing=() as_root=() log=$build/install.log
   command -v dpkg-query >/dev/null || fail "this is no Debian or Ubuntu: install the packages of scripts/packages.sh by hand"
@@ -53,22 +54,38 @@ requirePackages() {
   [ ${#missing[@]} -gt 0 ] || return 0
 
   if [ "$(id -u)" != 0 ]; then
-    command -v sudo >/dev/null || fail "install these packages as root, then start again: ${missing[*]}"
+    command -v sudo >/dev/null || fail "as root, install what is missing, then start again:
+apt-get update && apt-get install -y --no-install-recommends ${missing[*]}"
     as_root=(sudo)
     if [ "${CI:-}" = true ]; then as_root+=(-n); fi
   fi
   as_root+=(env DEBIAN_FRONTEND=noninteractive)
-  echo "Installing ${#missing[@]} packages and what they need: ${missing[*]}"
+  echo "Installing ${#missing[@]} packages and what they need (up to 0.5 GB to download): ${missing[*]}"
   mkdir -p "$build"
   if ! compgen -G '/var/lib/apt/lists/*_Packages*' >/dev/null; then
     "${as_root[@]}" apt-get update </dev/null >"$log" 2>&1 || fail "apt-get update failed: $(tail -n 1 "$log")"
   fi
-  if ! "${as_root[@]}" apt-get install -y --no-install-recommends "${missing[@]}" </dev/null >"$log" 2>&1; then
+  if ! withNews "${as_root[@]}" apt-get install -y --no-install-recommends "${missing[@]}"; then
     # Package lists may be older than the archive.
     "${as_root[@]}" apt-get update </dev/null >>"$log" 2>&1 || true
-    "${as_root[@]}" apt-get install -y --no-install-recommends "${missing[@]}" </dev/null >>"$log" 2>&1 ||
+    withNews "${as_root[@]}" apt-get install -y --no-install-recommends "${missing[@]}" ||
       fail "apt-get could not install ${missing[*]}: $(grep '^E:' "$log" | tail -n 1) (all of it: build/install.log)"
   fi
+}
+
+# Runs apt-get, whose long text goes to $log; says how much there is to fetch, and every while that it still works.
+withNews() {
+  local apt status=0 seconds=0 told=false
+  "$@" </dev/null >>"$log" 2>&1 &
+  apt=$!
+  while kill -0 $apt 2>/dev/null; do
+    sleep 1
+    seconds=$((seconds + 1))
+    if ! $told && grep '^Need to get ' "$log"; then told=true; fi
+    if [ $((seconds % 30)) = 0 ]; then echo "... $seconds s: $(tail -n 1 "$log" | cut -c 1-100)"; fi
+  done
+  wait $apt || status=$?
+  return $status
 }
 
 requireLocalhost() {

@@ -11,7 +11,8 @@ if [ -e /opt/ros/noetic/setup.bash ]; then
     ros-noetic-geometry-msgs ros-noetic-image-transport ros-noetic-message-generation ros-noetic-nodelet
     ros-noetic-pluginlib ros-noetic-rosbag ros-noetic-roscpp ros-noetic-sensor-msgs ros-noetic-std-msgs
     ros-noetic-std-srvs ros-noetic-tf2-msgs ros-noetic-tf2-ros ros-noetic-visualization-msgs)
-  packages_run=(ros-noetic-rosbash ros-noetic-roslaunch ros-noetic-rosout)
+  packages_run=(ros-noetic-rosbash ros-noetic-roslaunch ros-noetic-rosnode ros-noetic-rosout ros-noetic-rosservice
+    ros-noetic-rostopic)
   packages_rviz=(ros-noetic-rviz)
   packages_test=(libgtest-dev ros-noetic-roslaunch ros-noetic-rostest ros-noetic-rosunit ros-noetic-rviz)
   packages_lint=(clang-format clang-tidy python3-catkin-lint)
@@ -24,8 +25,8 @@ else
     libopencv-dev librosbag-dev libroscpp-dev libsensor-msgs-dev libstd-srvs-dev libtf2-msgs-dev libtf2-ros-dev
     libvisualization-msgs-dev libyaml-cpp-dev ninja-build pluginlib-dev ros-diagnostic-msgs ros-geometry-msgs
     ros-message-generation ros-sensor-msgs ros-std-msgs ros-std-srvs ros-tf2-msgs ros-visualization-msgs)
-  packages_run=(libnodeletlib-tools python3-diagnostic-msgs python3-rosbag python3-roslaunch python3-sensor-msgs
-    python3-std-srvs python3-tf2-msgs python3-visualization-msgs rosbash rosout tf2-tools)
+  packages_run=(libnodeletlib-tools python3-diagnostic-msgs python3-rosbag python3-roslaunch python3-rosnode python3-rosservice
+    python3-rostopic python3-sensor-msgs python3-std-srvs python3-tf2-msgs python3-visualization-msgs rosbash rosout tf2-tools)
   packages_rviz=(libgl1-mesa-dri rviz)
   packages_test=(libgtest-dev librostest-dev python3-rostest rviz)
   packages_lint=(catkin-lint clang-format clang-tidy)

@@ -18,8 +18,10 @@ for argument in "$@"; do
   esac
 done
 
+packages=("${packages_build[@]}" "${packages_run[@]}" "${packages_test[@]}")
+if [ $lint = lint ]; then packages+=("${packages_lint[@]}"); fi
+requirePackages "${packages[@]}"
 scripts/build.sh --tests
-if [ $lint = lint ]; then requirePackages "${packages_lint[@]}"; fi
 requireLocalhost
 sourceSetup "$build/devel/setup.bash"
 

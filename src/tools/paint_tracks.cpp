@@ -31,6 +31,7 @@ namespace {
 struct Arguments {
   std::string bag;
   std::string picture;
+  std::string images;  ///< bag with the images; empty: that of the lines
   std::string lines_topic;
   std::string image_topic;
   std::size_t number{0};
@@ -39,7 +40,7 @@ struct Arguments {
 
 /// Paints all images up to the chosen one: trails need those before.
 void paintTracks(const Arguments& arguments) {
-  checkOutput(arguments.picture, {arguments.bag});
+  checkOutput(arguments.picture, {arguments.bag, arguments.images});
   const std::string ending = std::filesystem::path(arguments.picture).extension();
   if (ending.empty() || !cv::haveImageWriter(arguments.picture)) {
     throw std::runtime_error("cannot write " + arguments.picture +
@@ -48,6 +49,11 @@ void paintTracks(const Arguments& arguments) {
   rosbag::Bag bag;
   openForReading(bag, arguments.bag);
   const LineBag lines = readLines(bag, arguments.lines_topic);
+  if (!arguments.images.empty()) {
+    bag.close();
+    openForReading(bag, arguments.images);
+  }
+  const std::string& images = bag.getFileName();
   std::map<std::int64_t, const LineFrame*> frames;
   for (const LineFrame& frame : lines.frames) frames[frame.stamp_ns] = &frame;
 
@@ -62,8 +68,7 @@ void paintTracks(const Arguments& arguments) {
     throwIfInterrupted();
     const auto image = readImage(instance);
     if (!image) {
-      throw std::runtime_error(arguments.image_topic + " of " + arguments.bag + " holds " +
-                               instance.getDataType());
+      throw std::runtime_error(arguments.image_topic + " of " + images + " holds " + instance.getDataType());
     }
     const auto frame = frames.find(static_cast<std::int64_t>(image->header.stamp.toNSec()));
     if (frame == frames.end()) continue;
@@ -75,7 +80,7 @@ void paintTracks(const Arguments& arguments) {
     if (++painted == arguments.number) break;
   }
   if (painted < arguments.number) {
-    throw std::runtime_error(arguments.bag + " holds " + std::to_string(painted) + " images with lines on " +
+    throw std::runtime_error(images + " holds " + std::to_string(painted) + " images with lines on " +
                              arguments.image_topic + ", number " + std::to_string(arguments.number) +
                              " was asked for (track_bag --with-images copies the images)");
   }
@@ -92,6 +97,7 @@ int run(int argc, char** argv) {
   options.add_options()
       ("bag", po::value(&arguments.bag)->required(), "bag with images and lines, as of track_bag --with-images")
       ("picture", po::value(&arguments.picture)->required(), "picture to write, .png or .jpg")
+      ("images", po::value(&arguments.images), "bag with the images, where they are in another one than the lines")
       ("number", po::value(&arguments.number)->default_value(1), "which image, counted from 1")
       ("lines", po::value(&arguments.lines_topic)->default_value(sequence_bag::kLinesTopic), "topic of the lines")
       ("image", po::value(&arguments.image_topic)->default_value(sequence_bag::kImageTopic), "topic of the images")

@@ -59,5 +59,43 @@ TEST(Scripts, BuildInstallsWhatReadmeStartsAfterIt) {
   EXPECT_EQ(result.output, "CMake begins\n");
 }
 
+TEST(Scripts, WithoutSudoTheyPrintOneLineToPasteWithAllThatTheyNeed) {
+  for (const std::string script :
+       {"build.sh --tests", "test.sh", "test.sh --no-lint", "demo.sh --headless"}) {
+    const ShellResult result = inSourceFolder(R"(bash -c '
+        dpkg-query() { :; }
+        id() { echo 1000; }
+        command() { if [ "$2" = sudo ]; then return 1; else builtin command "$@"; fi; }
+        export -f dpkg-query id command
+        . scripts/packages.sh
+        needed=("${packages_build[@]}" "${packages_run[@]}")
+        case "$1" in
+          *test*) needed+=("${packages_test[@]}") ;;
+        esac
+        if [ "$1" = test.sh ]; then needed+=("${packages_lint[@]}"); fi
+        line=$(scripts/$1 2>&1 </dev/null | grep "^apt-get update && apt-get install ")
+        for package in "${needed[@]}"; do case " $line " in *" $package "*) ;; *) echo "lacks $package" ;; esac; done
+        wc -l <<<"$line"' - ')" + script + "'");
+    EXPECT_EQ(result.output, "1\n") << script;
+  }
+}
+
+TEST(Scripts, BuildIntoAPipeShowsEachLineWhenItComes) {
+  // The stand-in for the build goes on when its first line was read.
+  const ShellResult result = inSourceFolder(R"(bash -c '
+      export SEEN=$(mktemp -u)
+      dpkg-query() { printf "installed %s\n" "$@"; }
+      cmake() {
+        if [ "$1" = -S ]; then return; fi
+        echo "first line"
+        for i in $(seq 200); do if [ -e "$SEEN" ]; then echo "was seen"; return; fi; sleep 0.1; done
+        echo "was not seen"
+      }
+      export -f dpkg-query cmake
+      scripts/build.sh | { read -r line; touch "$SEEN"; echo "$line"; cat; }
+      rm "$SEEN"')");
+  EXPECT_EQ(result.output, "first line\nwas seen\n");
+}
+
 }  // namespace
 }  // namespace tet_line_tracker
