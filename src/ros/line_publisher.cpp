@@ -28,11 +28,18 @@ sensor_msgs::ImageConstPtr toDebugImage(const LineFrame& frame, const std::strin
   return image;
 }
 
+TrackPainter::Style styleOf(const NodeParameters& parameters) {
+  TrackPainter::Style style;
+  style.ids = parameters.debug_image_ids;
+  return style;
+}
+
 }  // namespace
 
 LinePublisher::LinePublisher(ros::NodeHandle& node, const NodeParameters& parameters)
     : throttle_(parameters.publish_rate),
       marker_builder_(parameters.marker_ids),
+      painter_(styleOf(parameters)),
       lines_(node.advertise<LineArray>("lines", kLinesQueue)),
       markers_(node.advertise<visualization_msgs::MarkerArray>("markers", kDisplayQueue)),
       statistics_(node.advertise<TrackingStatistics>("statistics", kLinesQueue)),

@@ -84,6 +84,8 @@ ParameterTable tableOf(NodeParameters& p) {
   table.add("queue_size", p.queue_size, 1, 1000, "",
             "Images that wait for their turn at most; a newer one replaces the oldest");
   table.add("marker_ids", p.marker_ids, "Ids beside the lines of `~markers`");
+  table.add("debug_image_ids", p.debug_image_ids,
+            "Ids on `~debug_image`, where there is room for them, oldest tracks first");
   table.add("imu_wait", p.imu_wait, 0.0, 10.0, "s",
             "An image waits at most so long for the IMU message after it; then its motion is predicted from "
             "the images");

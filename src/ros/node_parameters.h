@@ -17,6 +17,7 @@ struct NodeParameters {
   double mono16_scale{1.0 / 256.0};  ///< 8-bit gray per step of a 16-bit image, 1e-6..255
   int queue_size{2};                 ///< images that wait for their turn at most, 1..1000
   bool marker_ids{false};            ///< ids beside the lines of ~markers
+  bool debug_image_ids{true};        ///< ids on ~debug_image, where there is room
   double imu_wait{0.05};             ///< an image waits so long for its IMU messages, 0..10 [s]
   std::string imu_rotation;  ///< "qx qy qz qw": takes directions in the IMU's frame to the camera's; empty:
                              ///< ask tf

@@ -5,43 +5,13 @@
 #include <algorithm>
 #include <numeric>
 
+#include "tet_line_tracker/display/track_painter.h"
+
 namespace tet_line_tracker {
 namespace {
 
 constexpr std::array<const char*, static_cast<std::size_t>(DropReason::kCount)> kDropNames{
     "queue", "late stamp", "duplicate stamp", "zero stamp", "unreadable"};
-/// A switch, so that the compiler tells of a reason without a name.
-const char* nameOf(LossReason reason) {
-  switch (reason) {
-    case LossReason::kFlow:
-      return "flow";
-    case LossReason::kResidual:
-      return "residual";
-    case LossReason::kLengthRatio:
-      return "length ratio";
-    case LossReason::kAngle:
-      return "angle";
-    case LossReason::kSupport:
-      return "support";
-    case LossReason::kBorder:
-      return "border";
-    case LossReason::kShort:
-      return "short";
-    case LossReason::kFieldOfView:
-      return "field of view";
-    case LossReason::kMask:
-      return "mask";
-    case LossReason::kDepth:
-      return "depth";
-    case LossReason::kEdgeJump:
-      return "edge jump";
-    case LossReason::kDuplicate:
-      return "duplicate";
-    case LossReason::kCount:
-      break;
-  }
-  return "";
-}
 
 double seconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double>(duration).count();

@@ -13,6 +13,21 @@
 namespace tet_line_tracker {
 namespace {
 
+void takeLosses(const TrackingStatistics& message, FrameStatistics& statistics) {
+  statistics.lostFor(LossReason::kFlow) = message.lost_flow;
+  statistics.lostFor(LossReason::kResidual) = message.lost_residual;
+  statistics.lostFor(LossReason::kLengthRatio) = message.lost_length_ratio;
+  statistics.lostFor(LossReason::kAngle) = message.lost_angle;
+  statistics.lostFor(LossReason::kSupport) = message.lost_support;
+  statistics.lostFor(LossReason::kBorder) = message.lost_border;
+  statistics.lostFor(LossReason::kShort) = message.lost_short;
+  statistics.lostFor(LossReason::kFieldOfView) = message.lost_field_of_view;
+  statistics.lostFor(LossReason::kMask) = message.lost_mask;
+  statistics.lostFor(LossReason::kDepth) = message.lost_depth;
+  statistics.lostFor(LossReason::kEdgeJump) = message.lost_edge_jump;
+  statistics.lostFor(LossReason::kDuplicate) = message.lost_duplicate;
+}
+
 void takeTimes(const TrackingStatistics& message, LineFrame& frame) {
   FrameStatistics& times = frame.statistics;
   times.pyramid_ms = message.pyramid_ms;
@@ -52,6 +67,7 @@ LineBag readLines(const rosbag::Bag& bag, const std::string& topic) {
     const auto frame = frame_of_stamp.find(static_cast<std::int64_t>(message->header.stamp.toNSec()));
     if (frame == frame_of_stamp.end()) continue;
     takeTimes(*message, lines.frames[frame->second]);
+    takeLosses(*message, lines.frames[frame->second].statistics);
     ++with_times;
   }
   lines.has_statistics = with_times == lines.frames.size();

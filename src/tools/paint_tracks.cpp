@@ -36,6 +36,7 @@ struct Arguments {
   std::string image_topic;
   std::size_t number{0};
   bool chords{false};
+  bool no_ids{false};
 };
 
 /// Paints all images up to the chosen one: trails need those before.
@@ -59,7 +60,9 @@ void paintTracks(const Arguments& arguments) {
 
   checkDefinition<sensor_msgs::Image>(bag, arguments.image_topic);
   checkDefinition<sensor_msgs::CompressedImage>(bag, arguments.image_topic);
-  TrackPainter painter;
+  TrackPainter::Style style;
+  style.ids = !arguments.no_ids;
+  TrackPainter painter(style);
   BagCalibration calibration(bag, chooseCameraInfoTopic(bag, "", arguments.image_topic));
   cv::Mat picture;
   std::size_t painted = 0;
@@ -101,6 +104,7 @@ int run(int argc, char** argv) {
       ("number", po::value(&arguments.number)->default_value(1), "which image, counted from 1")
       ("lines", po::value(&arguments.lines_topic)->default_value(sequence_bag::kLinesTopic), "topic of the lines")
       ("image", po::value(&arguments.image_topic)->default_value(sequence_bag::kImageTopic), "topic of the images")
+      ("no-ids", po::bool_switch(&arguments.no_ids), "without the ids of the lines")
       ("chords", po::bool_switch(&arguments.chords), "straight lines in the image, although the lens bends them");
   // clang-format on
   po::positional_options_description positional;

@@ -6,6 +6,7 @@
 #include <deque>
 #include <memory>
 #include <unordered_map>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -21,14 +22,19 @@ constexpr std::uint32_t kOldestColouredAge = 100;
 /// on a logarithmic scale. Red, green, blue, 0..1.
 std::array<float, 3> colourOfAge(std::uint32_t age);
 
-/// Draws the lines of images over these images: coloured by age, with their ids, the way their endpoints
-/// came, and a scale of the colours. Keeps the recent endpoints of the lines it has painted.
+/// "support", "edge jump", ...: for legends and diagnostics.
+const char* nameOf(LossReason reason);
+
+/// Draws the lines of images over these images: coloured by age, with their ids where there is room, the way
+/// their endpoints came, what was lost since the image before, and a legend. Keeps the recent endpoints of
+/// the lines it has painted.
 class TrackPainter {
  public:
   struct Style {
     std::size_t trail_images{12};  ///< endpoints are followed back over so many painted images; 0: no trail
-    bool ids{true};
-    bool scale{true};  ///< colour scale and counts along the lower border
+    bool ids{true};    ///< beside the lines, where no line runs and no other id is, oldest tracks first
+    bool scale{true};  ///< legend along the lower border: colours of ages, counts, time, reasons of losses
+    bool lost{true};   ///< lines of the image before that are no longer there, dashed where they were
   };
 
   TrackPainter() : TrackPainter(Style{}) {}
@@ -49,7 +55,9 @@ class TrackPainter {
     std::uint64_t painted{0};          ///< number of the painting that saw the line last
   };
 
-  void follow(const LineFrame& frame);
+  /// Gives the lines of the image before that `frame` lacks; none when that was not the last one painted.
+  std::vector<LineSegment> follow(const LineFrame& frame);
+  void drawIds(const LineFrame& frame, const std::vector<LineCurve>& curves, cv::Mat& bgr) const;
   void drawTrail(const Trail& trail, const cv::Scalar& colour, cv::Mat& bgr) const;
 
   Style style_;
@@ -57,6 +65,7 @@ class TrackPainter {
   cv::Size lens_size_;  ///< of the images that lens_ is for [px]
   LensBend lens_;       ///< of camera_
   std::uint32_t epoch_{0};
+  std::uint64_t image_count_{0};  ///< of the last painted image
   std::uint64_t paintings_{0};
   std::unordered_map<std::uint64_t, Trail> trails_;
 };

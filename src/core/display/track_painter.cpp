@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <cstddef>
 #include <iterator>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -11,113 +12,50 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "display/drawing.h"
+#include "display/label_placer.h"
+#include "display/legend.h"
 #include "geometry/clamp.h"
 
 namespace tet_line_tracker {
 namespace {
-
-/// Fractional bits of the drawing functions of OpenCV, so that lines lie where they were measured.
-constexpr int kShift = 4;
-
-cv::Point fixedPoint(const Eigen::Vector2f& point) {
-  constexpr float kScale = 1 << kShift;
-  constexpr float kFarOutside = 1e6F;
-  return {cvRound(clampOrLow(point.x() * kScale, -kFarOutside, kFarOutside)),
-          cvRound(clampOrLow(point.y() * kScale, -kFarOutside, kFarOutside))};
-}
 
 cv::Scalar bgrOfAge(std::uint32_t age) {
   const std::array<float, 3> rgb = colourOfAge(age);
   return {255.0 * rgb[2], 255.0 * rgb[1], 255.0 * rgb[0]};
 }
 
-/// Thickness and text grow with the picture: 1 at the width of a VGA image.
-double drawingScale(const cv::Mat& image) {
-  return std::clamp(image.cols / 752.0, 0.5, 4.0);
-}
-
-int thickness(double pixels_at_vga, const cv::Mat& image) {
-  return std::max(1, cvRound(pixels_at_vga * drawingScale(image)));
-}
-
-/// Text with a dark rim, readable on any ground.
-void drawText(const std::string& text, cv::Point origin, double size, const cv::Scalar& colour,
-              cv::Mat& bgr) {
-  const double scale = size * drawingScale(bgr);
-  cv::putText(bgr, text, origin, cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar::all(0), thickness(2.5, bgr),
-              cv::LINE_AA);
-  cv::putText(bgr, text, origin, cv::FONT_HERSHEY_SIMPLEX, scale, colour, thickness(1, bgr), cv::LINE_AA);
-}
-
-/// The line as pieces so short that the curve leaves them by less than a fixed-point step.
-std::vector<cv::Point> pointsOf(const LineCurve& line) {
-  constexpr float kPiece = 8.0F;  // [px]
-  const float length = line.bend.isStraight() ? 0.0F : line.chord.length();
-  const int pieces = 1 + static_cast<int>(clampOrLow(length / kPiece, 0.0F, 1e3F));
-  std::vector<cv::Point> points{fixedPoint(line.chord.start)};
-  for (int i = 1; i < pieces; ++i) {
-    points.push_back(fixedPoint(line.at(static_cast<float>(i) / static_cast<float>(pieces))));
-  }
-  points.push_back(fixedPoint(line.chord.end));
-  return points;
-}
-
 void drawLine(const LineCurve& line, const cv::Scalar& colour, cv::Mat& bgr) {
-  const std::vector<cv::Point> points = pointsOf(line);
-  cv::polylines(bgr, points, false, cv::Scalar::all(20), thickness(3.2, bgr), cv::LINE_AA, kShift);
-  cv::polylines(bgr, points, false, colour, thickness(1.6, bgr), cv::LINE_AA, kShift);
+  const std::vector<cv::Point> points = fixedPoints(line);
+  cv::polylines(bgr, points, false, cv::Scalar::all(20), drawingThickness(3.2, bgr), cv::LINE_AA,
+                kDrawingShift);
+  cv::polylines(bgr, points, false, colour, drawingThickness(1.6, bgr), cv::LINE_AA, kDrawingShift);
   const cv::Point& start = points.front();
   const cv::Point& end = points.back();
   // A full dot at the start and a ring at the end: the roles of the endpoints can be seen to stay.
-  const int radius = cvRound(2.4 * drawingScale(bgr) * (1 << kShift));
-  cv::circle(bgr, start, radius, colour, cv::FILLED, cv::LINE_AA, kShift);
-  cv::circle(bgr, end, radius, cv::Scalar::all(20), cv::FILLED, cv::LINE_AA, kShift);
-  cv::circle(bgr, end, radius, colour, thickness(1, bgr), cv::LINE_AA, kShift);
+  const int radius = cvRound(2.4 * drawingScale(bgr) * (1 << kDrawingShift));
+  cv::circle(bgr, start, radius, colour, cv::FILLED, cv::LINE_AA, kDrawingShift);
+  cv::circle(bgr, end, radius, cv::Scalar::all(20), cv::FILLED, cv::LINE_AA, kDrawingShift);
+  cv::circle(bgr, end, radius, colour, drawingThickness(1, bgr), cv::LINE_AA, kDrawingShift);
 }
 
-/// Beside the middle of the line, on its left.
-void drawId(std::uint64_t id, const LineCurve& line, const cv::Scalar& colour, cv::Mat& bgr) {
-  const std::string text = std::to_string(id);
-  const double size = 0.33;
-  const cv::Size extent =
-      cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size * drawingScale(bgr), 1, nullptr);
-  const float away = 0.5F * std::hypot(static_cast<float>(extent.width), static_cast<float>(extent.height)) +
-                     3.0F * static_cast<float>(drawingScale(bgr));
-  const Eigen::Vector2f centre = line.at(0.5F) + away * line.chord.normal();
-  drawText(text,
-           {cvRound(clampOrLow(centre.x(), -1e6F, 1e6F)) - extent.width / 2,
-            cvRound(clampOrLow(centre.y(), -1e6F, 1e6F)) + extent.height / 2},
-           size, colour, bgr);
-}
+constexpr double kIdSize = 0.34;
 
-/// Colours with their ages, and what the image holds, along the lower border.
-void drawScale(const LineFrame& frame, cv::Mat& bgr) {
-  const double scale = drawingScale(bgr);
-  const int height = cvRound(22 * scale);
-  if (bgr.rows < 4 * height || bgr.cols < cvRound(300 * scale)) return;
-  cv::Mat strip = bgr.rowRange(bgr.rows - height, bgr.rows);
-  strip.convertTo(strip, -1, 0.25);
-
-  const int left = cvRound(10 * scale);
-  const int bar_width = cvRound(150 * scale);
-  const int bar_top = cvRound(3 * scale);
-  const int bar_bottom = cvRound(8 * scale);
-  for (int x = 0; x < bar_width; ++x) {
-    const double age = std::pow(static_cast<double>(kOldestColouredAge), x / (bar_width - 1.0));
-    cv::line(strip, {left + x, bar_top}, {left + x, bar_bottom},
-             bgrOfAge(static_cast<std::uint32_t>(std::lround(age))));
+/// What was lost: thin dashes with a dark rim, in a colour that no age has.
+void drawLost(const LineCurve& line, cv::Mat& bgr) {
+  constexpr float kPeriod = 12.0F;  // [px]
+  const cv::Scalar colour(230, 120, 255);
+  const float period = kPeriod * std::max(1.0F, static_cast<float>(drawingScale(bgr)));
+  const float length = clampOrLow(line.chord.length(), 0.0F, 1e4F);
+  const int dashes = 1 + static_cast<int>(length / period);
+  for (int i = 0; i < dashes; ++i) {
+    const float begin = (static_cast<float>(i) + 0.25F) / static_cast<float>(dashes);
+    const float end = (static_cast<float>(i) + 0.75F) / static_cast<float>(dashes);
+    const cv::Point from = fixedPoint(line.at(begin));
+    const cv::Point to = fixedPoint(line.at(end));
+    cv::line(bgr, from, to, cv::Scalar::all(20), drawingThickness(3.2, bgr), cv::LINE_AA, kDrawingShift);
+    cv::line(bgr, from, to, colour, drawingThickness(1.4, bgr), cv::LINE_AA, kDrawingShift);
   }
-  for (const std::uint32_t age : {1U, 3U, 10U, 30U, kOldestColouredAge}) {
-    const int x = cvRound(bar_width * std::log(age) / std::log(kOldestColouredAge));
-    drawText(std::to_string(age), {left + x - cvRound(4 * scale), height - cvRound(3 * scale)}, 0.32,
-             cv::Scalar::all(235), strip);
-  }
-  char text[96];
-  std::snprintf(text, sizeof(text), "age [images]    %zu lines    image %llu    epoch %u%s",
-                frame.lines.size(), static_cast<unsigned long long>(frame.image_count), frame.epoch,
-                frame.detected ? "    detected" : "");
-  drawText(text, {left + bar_width + cvRound(22 * scale), height - cvRound(7 * scale)}, 0.4,
-           cv::Scalar::all(235), strip);
 }
 
 }  // namespace
@@ -150,28 +88,47 @@ void TrackPainter::paint(const cv::Mat& gray, const LineFrame& frame, cv::Mat& b
                                 std::to_string(frame.width) + "x" + std::to_string(frame.height));
   }
   cv::cvtColor(gray, bgr, cv::COLOR_GRAY2BGR);
-  follow(frame);
   if (lens_size_ != gray.size()) lens_ = LensBend(camera_, gray.cols, gray.rows);
   lens_size_ = gray.size();
+  const std::vector<LineSegment> lost = follow(frame);
+  if (style_.lost) {
+    for (const LineSegment& segment : lost) drawLost(lens_.curve(segment), bgr);
+  }
   for (const TrackedLine& line : frame.lines) {
     const auto trail = trails_.find(line.id);
     if (trail != trails_.end()) drawTrail(trail->second, bgrOfAge(line.age), bgr);
   }
+  std::vector<LineCurve> curves;
+  curves.reserve(frame.lines.size());
   for (const TrackedLine& line : frame.lines) {
-    drawLine(lens_.curve(line.segment), bgrOfAge(line.age), bgr);
+    curves.push_back(lens_.curve(line.segment));
+    drawLine(curves.back(), bgrOfAge(line.age), bgr);
   }
-  if (style_.ids) {
-    for (const TrackedLine& line : frame.lines) {
-      drawId(line.id, lens_.curve(line.segment), cv::Scalar::all(255), bgr);
-    }
-  }
-  if (style_.scale) drawScale(frame, bgr);
+  if (style_.ids) drawIds(frame, curves, bgr);
+  if (style_.scale) drawLegend(frame, bgr);
 }
 
-void TrackPainter::follow(const LineFrame& frame) {
-  if (style_.trail_images == 0) return;
+void TrackPainter::drawIds(const LineFrame& frame, const std::vector<LineCurve>& curves, cv::Mat& bgr) const {
+  LabelPlacer placer(bgr.size());
+  if (style_.scale) placer.take(legendArea(bgr.size()));
+  for (const LineCurve& curve : curves) placer.take(curve);
+  std::vector<std::size_t> oldest_first(curves.size());
+  std::iota(oldest_first.begin(), oldest_first.end(), 0);
+  std::stable_sort(oldest_first.begin(), oldest_first.end(), [&frame](std::size_t a, std::size_t b) {
+    return frame.lines[a].age > frame.lines[b].age;
+  });
+  for (const std::size_t i : oldest_first) {
+    const std::string id = std::to_string(frame.lines[i].id);
+    const auto corner = placer.place(curves[i], textExtent(id, kIdSize, bgr));
+    if (corner) drawText(id, *corner, kIdSize, cv::Scalar::all(255), bgr);
+  }
+}
+
+std::vector<LineSegment> TrackPainter::follow(const LineFrame& frame) {
+  const bool is_next = frame.epoch == epoch_ && frame.image_count == image_count_ + 1;
   if (frame.epoch != epoch_) trails_.clear();
   epoch_ = frame.epoch;
+  image_count_ = frame.image_count;
   ++paintings_;
   for (const TrackedLine& line : frame.lines) {
     Trail& trail = trails_[line.id];
@@ -179,9 +136,13 @@ void TrackPainter::follow(const LineFrame& frame) {
     trail.segments.push_back(line.segment);
     if (trail.segments.size() > style_.trail_images + 1) trail.segments.pop_front();
   }
+  std::vector<LineSegment> lost;
   for (auto trail = trails_.begin(); trail != trails_.end();) {
-    trail = trail->second.painted == paintings_ ? std::next(trail) : trails_.erase(trail);
+    const bool is_lost = trail->second.painted != paintings_;
+    if (is_lost && is_next) lost.push_back(trail->second.segments.back());
+    trail = is_lost ? trails_.erase(trail) : std::next(trail);
   }
+  return lost;
 }
 
 void TrackPainter::drawTrail(const Trail& trail, const cv::Scalar& colour, cv::Mat& bgr) const {
@@ -190,9 +151,10 @@ void TrackPainter::drawTrail(const Trail& trail, const cv::Scalar& colour, cv::M
     const cv::Scalar faded = colour * (0.3 + 0.6 * freshness);
     const LineSegment& from = trail.segments[i - 1];
     const LineSegment& to = trail.segments[i];
-    cv::line(bgr, fixedPoint(from.start), fixedPoint(to.start), faded, thickness(1, bgr), cv::LINE_AA,
-             kShift);
-    cv::line(bgr, fixedPoint(from.end), fixedPoint(to.end), faded, thickness(1, bgr), cv::LINE_AA, kShift);
+    cv::line(bgr, fixedPoint(from.start), fixedPoint(to.start), faded, drawingThickness(1, bgr), cv::LINE_AA,
+             kDrawingShift);
+    cv::line(bgr, fixedPoint(from.end), fixedPoint(to.end), faded, drawingThickness(1, bgr), cv::LINE_AA,
+             kDrawingShift);
   }
 }
 

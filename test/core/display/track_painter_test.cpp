@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "bent_edge.h"
+#include "display/legend.h"
 #include "tet_line_tracker/camera/lens_bend.h"
 
 namespace tet_line_tracker {
@@ -37,7 +38,7 @@ TEST(TrackPainter, GoesFromRedToBlueWithTheAge) {
 }
 
 TEST(TrackPainter, PaintsOnTheLineInTheColourOfItsAge) {
-  TrackPainter painter({0, false, false});
+  TrackPainter painter({0, false, false, false});
   const cv::Mat gray(120, 160, CV_8UC1, cv::Scalar(100));
   cv::Mat bgr;
   painter.paint(gray, frameOf(160, 120, {lineOf(1, 1, {20, 60}, {140, 60})}), bgr);
@@ -50,7 +51,7 @@ TEST(TrackPainter, PaintsOnTheLineInTheColourOfItsAge) {
 }
 
 TEST(TrackPainter, PaintsTheCurveIntoWhichTheLensBendsTheLine) {
-  TrackPainter painter({0, false, false});
+  TrackPainter painter({0, false, false, false});
   const cv::Vec3b ground(100, 100, 100);
   const cv::Mat gray(480, 752, CV_8UC1, cv::Scalar(100));
   const LineFrame frame = frameOf(752, 480, {lineOf(1, 1, {100, 60}, {650, 60})});
@@ -72,7 +73,7 @@ TEST(TrackPainter, PaintsTheCurveIntoWhichTheLensBendsTheLine) {
 }
 
 TEST(TrackPainter, ShowsTheWayOfTheEndpointsWithinAnEpoch) {
-  TrackPainter painter({12, false, false});
+  TrackPainter painter({12, false, false, false});
   const cv::Mat gray(120, 160, CV_8UC1, cv::Scalar(100));
   cv::Mat bgr;
   painter.paint(gray, frameOf(160, 120, {lineOf(1, 1, {20, 20}, {20, 100})}), bgr);
@@ -84,6 +85,95 @@ TEST(TrackPainter, ShowsTheWayOfTheEndpointsWithinAnEpoch) {
   second.epoch = 2;  // the same id is another line now
   painter.paint(gray, second, bgr);
   EXPECT_EQ(bgr.at<cv::Vec3b>(20, 50), cv::Vec3b(100, 100, 100));
+}
+
+/// Pixels that differ between two paintings of the same frame.
+int difference(const TrackPainter::Style& style, const TrackPainter::Style& other, const LineFrame& frame,
+               const cv::Rect& area) {
+  const cv::Mat gray(frame.height, frame.width, CV_8UC1, cv::Scalar(100));
+  cv::Mat one, two, apart;
+  TrackPainter(style).paint(gray, frame, one);
+  TrackPainter(other).paint(gray, frame, two);
+  cv::absdiff(one(area), two(area), apart);
+  return cv::countNonZero(apart.reshape(1));
+}
+
+TEST(TrackPainter, WritesIdsOfTheOldestWhereThereIsNotRoomForAll) {
+  // A row of lines so near to each other that ids have room beside the upper- and the lowermost only.
+  std::vector<TrackedLine> lines;
+  for (int i = 0; i < 12; ++i) {
+    const auto y = static_cast<float>(100 + 5 * i);
+    lines.push_back(lineOf(1U + static_cast<unsigned>(i), i == 11 ? 90U : 3U, {100, y}, {300, y}));
+  }
+  const TrackPainter::Style with{0, true, false, false};
+  const TrackPainter::Style without{0, false, false, false};
+  const LineFrame frame = frameOf(752, 480, lines);
+  EXPECT_GT(difference(with, without, frame, {100, 155, 200, 25}), 20);
+  EXPECT_GT(difference(with, without, frame, {100, 80, 200, 20}), 20);
+  EXPECT_EQ(difference(with, without, frame, {90, 102, 220, 51}), 0);
+
+  // Where two lines want the same room, the older one has it, whatever their order.
+  const auto short_line = [](std::uint64_t id, std::uint32_t age, float y) {
+    return lineOf(id, age, {100, y}, {108, y});
+  };
+  const LineFrame old_first = frameOf(752, 480, {short_line(1, 50, 100), short_line(88888888, 2, 101)});
+  const LineFrame old_last = frameOf(752, 480, {short_line(88888888, 2, 101), short_line(1, 50, 100)});
+  cv::Mat first, last, apart;
+  const cv::Mat gray(480, 752, CV_8UC1, cv::Scalar(100));
+  TrackPainter(with).paint(gray, old_first, first);
+  TrackPainter(with).paint(gray, old_last, last);
+  cv::absdiff(first({0, 80, 752, 18}), last({0, 80, 752, 18}), apart);
+  EXPECT_EQ(cv::countNonZero(apart.reshape(1)), 0);
+}
+
+TEST(TrackPainter, ShowsWhatTheImageBeforeHadAndThisOneLacks) {
+  const cv::Vec3b ground(100, 100, 100);
+  const cv::Mat gray(120, 160, CV_8UC1, cv::Scalar(100));
+  const TrackedLine stays = lineOf(1, 1, {20, 20}, {140, 20});
+  const TrackedLine goes = lineOf(2, 1, {20, 60}, {140, 60});
+  const auto painted = [&](std::uint64_t count, std::uint32_t epoch, bool lost) {
+    TrackPainter painter({0, false, false, lost});
+    cv::Mat bgr;
+    LineFrame frame = frameOf(160, 120, {stays, goes});
+    frame.image_count = 7;
+    painter.paint(gray, frame, bgr);
+    frame = frameOf(160, 120, {stays});
+    frame.image_count = count;
+    frame.epoch = epoch;
+    painter.paint(gray, frame, bgr);
+    int marked = 0;
+    for (int x = 20; x < 140; ++x) marked += bgr.at<cv::Vec3b>(60, x) != ground ? 1 : 0;
+    return marked;
+  };
+  EXPECT_GT(painted(8, 1, true), 40);
+  EXPECT_LT(painted(8, 1, true), 118) << "dashes have gaps";
+  EXPECT_EQ(painted(8, 1, false), 0);
+  EXPECT_EQ(painted(9, 1, true), 0) << "another image was in between";
+  EXPECT_EQ(painted(8, 2, true), 0) << "of another epoch";
+}
+
+TEST(TrackPainter, SaysInWordsHowManyLinesThereAreHowLongTheyTookAndWhyOthersWereLost) {
+  LineFrame frame = frameOf(752, 480, {lineOf(1, 1, {20, 20}, {140, 20})});
+  frame.image_count = 7;
+  EXPECT_EQ(legendText(frame), "1 lines   image 7   epoch 1");
+  EXPECT_EQ(lossText(frame.statistics), "");
+  frame.detected = true;
+  frame.statistics.total_ms = 0.634;
+  frame.statistics.lostFor(LossReason::kSupport) = 3;
+  frame.statistics.lostFor(LossReason::kEdgeJump) = 1;
+  EXPECT_EQ(legendText(frame), "1 lines   0.63 ms   image 7   epoch 1   detected");
+  EXPECT_EQ(lossText(frame.statistics), "4 lost: support 3, edge jump 1");
+}
+
+TEST(TrackPainter, PutsTheLegendOnImagesThatAreLargeEnoughAndNothingBelowTheIds) {
+  EXPECT_TRUE(legendArea({100, 480}).empty());
+  EXPECT_TRUE(legendArea({752, 60}).empty());
+  const cv::Rect area = legendArea({752, 480});
+  EXPECT_EQ(area.br(), cv::Point(752, 480));
+  // A line whose id would lie in the legend if it could.
+  const auto y = static_cast<float>(area.y - 4);
+  const LineFrame frame = frameOf(752, 480, {lineOf(1, 1, {100, y}, {300, y})});
+  EXPECT_EQ(difference({0, true, true, false}, {0, false, true, false}, frame, area), 0);
 }
 
 TEST(TrackPainter, PaintsIntoTheMemoryItIsGiven) {
