@@ -40,15 +40,17 @@ tracks=$demo/tracks.bag
 rm -f "$tracks" "$tracks.active"
 rosrun rosbag record -q -O "$tracks" /line_tracker/lines >"$demo/record.log" 2>&1 &
 recorder=$!
-children+=($recorder)
+children+=("$recorder")
 echo "Playing the flight through the node ..."
 roslaunch --wait tet_line_tracker demo.launch bag:="$flight" rviz:=false </dev/null >"$demo/launch.log" 2>&1 ||
   { tail -n 30 "$demo/launch.log" >&2; fail "the node or the player ended with an error (build/demo/launch.log)"; }
 kill -INT $recorder 2>/dev/null || true
 wait $recorder || true
 # roslaunch ends with 0 also when the player did not start.
-[ -e "$tracks" ] && "$tools/check_lines" "$tracks" ||
-  { tail -n 30 "$demo/launch.log" >&2; fail "the node published no lines, or wrong ones (build/demo/launch.log)"; }
+if [ ! -e "$tracks" ] || ! "$tools/check_lines" "$tracks"; then
+  tail -n 30 "$demo/launch.log" >&2
+  fail "the node published no lines, or wrong ones (build/demo/launch.log)"
+fi
 "$tools/evaluate_tracks" "$tracks" | awk '
   NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i }
   NR == 2 { images = $column["images"]; lines = $column["lines"]; length_of_track = $column["length"] }

@@ -151,6 +151,8 @@ chooseMaster() {
 startMaster() {
   chooseMaster
   trap stopChildren EXIT
+  # roslaunch ends without an error after Ctrl-C; the script must not go on then.
+  trap 'exit 130' INT
   roscore -p "${ROS_MASTER_URI##*:}" >"$build/roscore.log" 2>&1 &
   children+=($!)
 }
