@@ -71,8 +71,8 @@ void checkOutputBesideFolder(const std::string& path, const std::string& folder)
   }
 }
 
-TemporaryOutput::TemporaryOutput(std::string path)
-    : path_(std::move(path)), temporary_path_(path_ + ".part" + std::to_string(getpid())) {}
+TemporaryOutput::TemporaryOutput(std::string path, const std::string& ending)
+    : path_(std::move(path)), temporary_path_(path_ + ".part" + std::to_string(getpid()) + ending) {}
 
 TemporaryOutput::~TemporaryOutput() {
   if (!moved_) std::remove(temporary_path_.c_str());

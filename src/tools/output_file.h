@@ -19,7 +19,8 @@ void checkOutputBesideFolder(const std::string& path, const std::string& folder)
 /// leaves nothing behind, so a failed program never leaves half a file.
 class TemporaryOutput {
  public:
-  explicit TemporaryOutput(std::string path);
+  /// `ending`: what the temporary name ends with, for writers that go by it.
+  explicit TemporaryOutput(std::string path, const std::string& ending = {});
   ~TemporaryOutput();
   TemporaryOutput(const TemporaryOutput&) = delete;
   TemporaryOutput& operator=(const TemporaryOutput&) = delete;

@@ -34,6 +34,7 @@
 #include "sequence_bag.h"
 #include "tet_line_tracker/tracking/line_tracker.h"
 #include "time_table.h"
+#include "track_video.h"
 
 namespace tet_line_tracker {
 namespace {
@@ -45,6 +46,7 @@ constexpr char kStatisticsTopic[] = "/line_tracker/statistics";
 struct Arguments {
   std::string input, output;
   std::string image_topic, camera_info_topic, imu_topic;
+  std::string video;    ///< file for the painted images; empty: none
   std::string tracker;  ///< tet, tet_chord or a baseline
   bool with_images{false};
   bool times{false};
@@ -188,6 +190,12 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
     if (arguments.with_images || instance.getTopic() != image_topic) output.copy(instance);
   }
 
+  std::unique_ptr<TrackVideo> video;
+  if (!arguments.video.empty()) {
+    std::vector<ros::Time> stamps;
+    for (const auto& image : images) stamps.push_back(image.first);
+    video = std::make_unique<TrackVideo>(arguments.video, imageRate(stamps));
+  }
   TimeTable times;
   std::shared_ptr<const CameraModel> camera_before;
   std::uint32_t sequence = 0;
@@ -211,6 +219,7 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
     if (!complaint.empty()) throw std::runtime_error(complaint);
     const auto camera = calibration.modelFor(stamp, gray.cols, gray.rows);
     if (camera != camera_before) front_end.setCamera(chords ? asChordCamera(camera) : camera);
+    if (video && !chords) video->setCamera(camera);
     camera_before = camera;
     const std::string trouble = calibration.takeComplaint();
     if (!trouble.empty()) warn(progress, trouble);
@@ -228,6 +237,7 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
     if (frame == nullptr) continue;
     output.write(sequence_bag::kLinesTopic, stamp, toLineArray(*frame, image->header.frame_id, sequence));
     output.write(kStatisticsTopic, stamp, statisticsOf(*frame, image->header.frame_id, sequence, arguments));
+    if (video) video->add(gray, *frame);
     ++sequence;
     lines += frame->lines.size();
     tracks += frame->statistics.lines_added;
@@ -240,6 +250,7 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
     throw std::runtime_error(arguments.input + " has no image with a stamp that can be read on " +
                              image_topic);
   }
+  if (video) video->close();
   output.close();
   std::printf("%u images, %.1f lines per image, %zu tracks of %.1f images on average\n", sequence,
               static_cast<double>(lines) / sequence, tracks,
@@ -269,6 +280,7 @@ int run(int argc, char** argv) {
       ("set", po::value(&settings)->composing(), "name=value: one parameter; may be given again")
       ("threads", po::value(&threads), "as --set threads=N; the lines do not depend on it")
       ("times", po::bool_switch(&arguments.times), "write the times of each image to /line_tracker/statistics as well")
+      ("video", po::value(&arguments.video), "also write the images with their lines to this file, .mp4 or .avi")
       ("with-images", po::bool_switch(&arguments.with_images), "copy the images to the output as well");
   // clang-format on
   po::positional_options_description positional;
@@ -296,6 +308,10 @@ int run(int argc, char** argv) {
   }
   if (!broken.empty()) throw std::runtime_error(broken);
   checkOutput(arguments.output, {arguments.input, config, node_parameters.mask});
+  if (!arguments.video.empty()) {
+    checkVideoName(arguments.video);
+    checkOutput(arguments.video, {arguments.input, config, node_parameters.mask});
+  }
   try {
     trackBag(arguments, tracker_parameters, node_parameters);
   } catch (const rosbag::BagException& error) {

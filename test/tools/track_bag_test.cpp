@@ -2,9 +2,13 @@
 #include <sensor_msgs/Imu.h>
 #include <tf2_msgs/TFMessage.h>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
 
 #include <algorithm>
 #include <map>
+#include <string>
+#include <vector>
 
 #include "bag_content.h"
 #include "tet_line_tracker/LineArray.h"
@@ -134,6 +138,63 @@ TEST_F(TrackBag, OnATerminalABarGoesWithAllItsWorkAndEndsItsLine) {
   // Eleven images alone would give as many states.
   EXPECT_GT(std::count(run.output.begin(), run.output.end(), '['), 50) << run.output;
   EXPECT_NE(run.output.find("] 100 %\r\n11 images, "), std::string::npos) << run.output;
+}
+
+TEST_F(TrackBag, PaintsEveryImageWithItsLinesIntoAVideoOfTheRateOfTheStamps) {
+  if (!cv::VideoWriter(file("probe.avi"), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 20.0, {64, 48})
+           .isOpened()) {
+    GTEST_SKIP() << "this OpenCV cannot write Motion JPEG";
+  }
+  ASSERT_EQ(runTool("track_bag", {flight(), file("tracks.bag"), "--video", file("flight.avi")}).status, 0);
+  cv::VideoCapture video(file("flight.avi"));
+  EXPECT_NEAR(video.get(cv::CAP_PROP_FPS), 20.0, 0.1);
+  cv::Mat picture;
+  int images = 0;
+  while (video.read(picture)) {
+    ++images;
+    EXPECT_EQ(picture.size(), cv::Size(752, 480));
+    // The images are gray, what is painted is not.
+    cv::Mat hsv, saturated;
+    cv::cvtColor(picture, hsv, cv::COLOR_BGR2HSV);
+    cv::inRange(hsv, cv::Scalar(0, 120, 120), cv::Scalar(180, 255, 255), saturated);
+    EXPECT_GT(cv::countNonZero(saturated), 1000);
+  }
+  EXPECT_EQ(images, 11);
+}
+
+TEST_F(TrackBag, LeavesNoVideoWhenItCannotBeWrittenOrTheBagCannotBeRead) {
+  const ToolRun name = runTool("track_bag", {flight(), file("never.bag"), "--video", file("flight.gif")});
+  EXPECT_NE(name.errors.find("flight.gif: no video, needs .mp4 or .avi"), std::string::npos) << name.errors;
+  // The bag is smaller than the limit of files, the video is not.
+  const ToolRun full = runTool("track_bag", {flight(), file("never.bag"), "--video", file("flight.avi")},
+                               "ulimit -f 2000; trap '' XFSZ; ");
+  EXPECT_EQ(full.status, 1) << full.errors;
+  EXPECT_NE(full.errors.find("cannot write " + file("flight.avi")), std::string::npos) << full.errors;
+  std::vector<std::string> left;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(flight()).parent_path())) {
+    left.push_back(entry.path().filename());
+  }
+  EXPECT_EQ(left, std::vector<std::string>{"flight.bag"});
+}
+
+TEST_F(TrackBag, LinesCanBePaintedOverTheImagesOfAnotherBagWithIdsOrWithout) {
+  track(flight(), {});
+  const ToolRun without = runTool("paint_tracks", {file("tracks.bag"), file("picture.png")});
+  EXPECT_NE(without.status, 0);
+  const auto paint = [&](std::vector<std::string> options) {
+    options.insert(options.begin(),
+                   {file("tracks.bag"), file("picture.png"), "--images", flight(), "--number", "5"});
+    const ToolRun run = runTool("paint_tracks", options);
+    EXPECT_EQ(run.status, 0) << run.errors;
+    return cv::imread(file("picture.png"));
+  };
+  const cv::Mat with_ids = paint({});
+  const cv::Mat without_ids = paint({"--no-ids"});
+  ASSERT_EQ(with_ids.size(), cv::Size(752, 480));
+  cv::Mat apart;
+  cv::absdiff(with_ids, without_ids, apart);
+  EXPECT_GT(cv::countNonZero(apart.reshape(1)), 500);
 }
 
 TEST_F(TrackBag, AnImuThatIsNotThereIsSaid) {
