@@ -80,6 +80,17 @@ TEST(Scripts, WithoutSudoTheyPrintOneLineToPasteWithAllThatTheyNeed) {
   }
 }
 
+TEST(Scripts, WithNodesTheyEndAtCtrlCAlsoWhenWhatTheyWaitForEndsWithoutAnError) {
+  const ShellResult result = inSourceFolder(R"(bash -c '
+      . scripts/environment.sh
+      roscore() { :; }
+      startMaster
+      bash -c "kill -INT \$PPID; sleep 0.2"  # as roslaunch, which makes no error of it
+      echo "went on"')");
+  EXPECT_EQ(result.status, 130) << result.output;
+  EXPECT_EQ(result.output, "");
+}
+
 TEST(Scripts, BuildIntoAPipeShowsEachLineWhenItComes) {
   // The stand-in for the build goes on when its first line was read.
   const ShellResult result = inSourceFolder(R"(bash -c '
