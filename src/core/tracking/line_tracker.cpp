@@ -18,6 +18,13 @@
 #include "tracking/worker_pool.h"
 
 namespace tet_line_tracker {
+namespace {
+
+/// A line that the border has just cut has shown less of itself to the flow: its edge must make up for it.
+/// Over min_support.
+constexpr float kCutSupport = 1.2F;
+
+}  // namespace
 
 class LineTracker::Implementation {
  public:
@@ -43,6 +50,7 @@ class LineTracker::Implementation {
   void startEpoch();
   int pyramidLevels() const;
   void follow(const MotionPrediction& motion);
+  bool cutToImage(LineCurve& line, TrackState& state) const;
   void refine();
   void check();
   void detect(const cv::Mat& gray);
@@ -132,6 +140,17 @@ void LineTracker::Implementation::follow(const MotionPrediction& motion) {
   workers_.run(tracks_.size(), std::cref(followOne));  // by reference: it is too large to be kept without heap
 }
 
+/// What lies outside shows no edge, and how far an edge is from the flow is known only where it is seen.
+bool LineTracker::Implementation::cutToImage(LineCurve& line, TrackState& state) const {
+  const float whole = line.chord.length();
+  const auto min_length = static_cast<float>(parameters_.detection.min_length);
+  if (area_.cutToBounds(0.0F, line) && (line.chord.length() == whole || line.chord.length() >= min_length)) {
+    return true;
+  }
+  state.loss = LossReason::kBorder;
+  return false;
+}
+
 void LineTracker::Implementation::refine() {
   if (!method_.refiner) return;
   const std::uint64_t image = frames_.frame().image_count;
@@ -139,10 +158,16 @@ void LineTracker::Implementation::refine() {
     TrackedLine& line = tracks_.line(i);
     TrackState& state = tracks_.state(i);
     if (state.lost()) return;
-    const LineCurve curve = area_.lens().curve(line.segment);
+    LineCurve curve = area_.lens().curve(line.segment);
+    if (!cutToImage(curve, state)) return;
     EdgeFit fit = method_.refiner->fit(pyramid_.level(0), curve, state.contrast);
+    const bool cut = curve.chord.length() < line.segment.length();
+    if (cut && fit.support < kCutSupport * static_cast<float>(parameters_.refiner.min_support)) {
+      state.loss = LossReason::kSupport;
+      return;
+    }
     state.bend = curve.bend;
-    state.edge_offset = std::abs(fit.segment.distance(line.segment.middle()));
+    state.edge_offset = std::abs(fit.segment.distance(curve.chord.middle()));
     const LineSegment found = fit.segment;
     if (method_.grower &&
         method_.grower->growTracked(pyramid_.level(0), area_, image, line, fit, state.bend)) {

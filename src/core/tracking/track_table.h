@@ -35,7 +35,7 @@ struct TrackState {
   LineDepth expected_depth;    ///< of the ends in the image before, in units of 1 / this step
   bool depth_conflict{false};  ///< by how it moved it would lie behind the camera, or its depth jumps
   LineSegment followed;        ///< where the flow found the line [px]
-  float edge_offset{0.0F};     ///< of the edge from `followed`, at its middle [px]
+  float edge_offset{0.0F};     ///< of the edge from `followed`, in the middle of what is seen of it [px]
   float support{1.0F};         ///< share of the line that lies on an edge, 0..1
   LossReason loss{LossReason::kCount};  ///< kCount: not lost
 

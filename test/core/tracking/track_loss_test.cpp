@@ -9,8 +9,10 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include "rectangle_images.h"
+#include "tet_line_tracker/camera/camera_model.h"
 #include "tet_line_tracker/tracking/line_tracker.h"
 
 namespace tet_line_tracker {
@@ -217,6 +219,92 @@ TEST(TrackLoss, ALineWhoseEdgeIsNotWhereTheFlowEndsHasJumped) {
     EXPECT_EQ(losses.of(LossReason::kEdgeJump), max_edge_offset < 5.0 ? 1U : 0U);
     EXPECT_EQ(losses.all(), losses.of(LossReason::kEdgeJump));
   }
+}
+
+/// Where a long bar is in the second image, and what of it can be seen.
+struct BarView {
+  float seen{600.0F};                    ///< of its length, from its left end [px]
+  float tilt{0.0F};                      ///< [rad]
+  float gap_start{0.0F}, gap_end{0.0F};  ///< without an edge, from its left end [px]
+};
+constexpr float kBarLength = 600.0F;
+
+/// The bar between boxes, through a long lens that has turned: everything has moved by the same way.
+cv::Mat barWithBoxes(const BarView& view) {
+  const float left = static_cast<float>(kSize.width - 3) - view.seen;
+  std::vector<Rectangle> boxes;
+  for (int i = -4; i < 5; ++i) {
+    const auto x = static_cast<float>(70 * i);
+    const auto y = static_cast<float>(13 * (i * i % 5));
+    boxes.push_back({x, 40.0F + y, x + 45.0F, 110.0F - 0.5F * y, 180.0F});
+    boxes.push_back({x + 20.0F, 280.0F + y, x + 62.0F, 370.0F - y, 50.0F});
+  }
+  cv::Mat image = rectanglesImage(kSize, boxes, {1.0F, 0.0F, {left, 0.0F}});
+  constexpr int kShift = 8;
+  const auto corner = [&](float along, float y) {
+    constexpr float kScale = 1 << kShift;
+    return cv::Point(static_cast<int>(std::lround(kScale * (left + along))),
+                     static_cast<int>(std::lround(kScale * (y + view.tilt * along))));
+  };
+  const std::vector<cv::Point> bar{corner(0.0F, 190.0F), corner(kBarLength, 190.0F),
+                                   corner(kBarLength, 210.0F), corner(0.0F, 210.0F)};
+  cv::fillConvexPoly(image, bar, cv::Scalar(220), cv::LINE_AA, kShift);
+  if (view.gap_end > view.gap_start) {
+    image(cv::Rect(cv::Point(static_cast<int>(left + view.gap_start), 180),
+                   cv::Point(static_cast<int>(left + view.gap_end), 230)))
+        .setTo(110);
+  }
+  return image;
+}
+
+/// How many edges of the bar go on when the lens turns at once from where it shows all of it.
+std::uint32_t followedEdgesOfBar(const BarView& view) {
+  constexpr double kFocal = 5000.0;
+  constexpr std::int64_t kFirst = 1000000000, kStep = 50000000;
+  LineTrackerParameters parameters;
+  parameters.motion.prior = "imu";
+  parameters.motion.ego_motion = false;
+  parameters.detection.redetect_ratio = 0.0;
+  LineTracker tracker(parameters);
+  CameraCalibration lens;
+  lens.fx = lens.fy = kFocal;
+  lens.cx = 320.0;
+  lens.cy = 200.0;
+  lens.width = kSize.width;
+  lens.height = kSize.height;
+  tracker.setCamera(makeCameraModel(lens));
+  tracker.setImuRotation(Eigen::Matrix3d::Identity());
+  const double rate = static_cast<double>(view.seen - BarView().seen) / kFocal * 1e9 / kStep;
+  for (int k = -1; k < 12; ++k) tracker.addAngularVelocity(kFirst + k * kStep / 10, {0.0, rate, 0.0});
+  const LineFrame before = *tracker.process(barWithBoxes({}), kFirst).frame;
+  const LineFrame after = *tracker.process(barWithBoxes(view), kFirst + kStep).frame;
+  EXPECT_EQ(after.statistics.prior, "imu");
+  std::uint32_t count = 0;
+  for (const TrackedLine& line : before.lines) {
+    if (line.segment.length() < 500.0F) continue;
+    const float y = line.segment.middle().y() + 0.5F * view.tilt * view.seen;
+    for (const TrackedLine& other : after.lines) {
+      if (other.id != line.id) continue;
+      ++count;
+      EXPECT_NEAR(other.segment.middle().y(), y, 0.2F);
+    }
+  }
+  return count;
+}
+
+TEST(TrackLoss, AFewPixelsOfALongLineAreEnoughWhenTheRestLeavesTheImage) {
+  EXPECT_EQ(followedEdgesOfBar({45.0F}), 2U);
+  EXPECT_EQ(followedEdgesOfBar({25.0F}), 0U) << "shorter than min_length";
+}
+
+TEST(TrackLoss, HowFarAnEdgeHasJumpedIsSeenInTheImageNotBeyondIt) {
+  EXPECT_EQ(followedEdgesOfBar({60.0F, 0.02F}), 2U);
+}
+
+TEST(TrackLoss, MoreOfALineMustLieOnAnEdgeWhenTheBorderHasJustCutIt) {
+  EXPECT_EQ(followedEdgesOfBar({100.0F, 0.0F, 40.0F, 70.0F}), 2U);
+  EXPECT_EQ(followedEdgesOfBar({100.0F, 0.0F, 40.0F, 84.0F}), 0U)
+      << "enough for a line that is all in the image";
 }
 
 /// Of the upright lines of the first image, those that are still on their edges in the last one, after a
