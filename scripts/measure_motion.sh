@@ -3,7 +3,7 @@
 #
 #   scripts/measure_motion.sh RESULTS [--tuning] [SEEDS [SECONDS]]
 #
-# RESULTS: folder for bags and tables. All that is there is used again: remove *-tet.* after a change of the package. SEEDS: of the
+# RESULTS: folder for bags and tables. All that is there is used again: remove *-tet.* and *-part-* after a change of the package. SEEDS: of the
 # flights, one or more in quotes ("1001 1002"), from 1000 on; below 1000 with --tuning. SECONDS: of a flight (20). Recorded sequences
 # are the extracts in ../shared/data (or TET_SHARED_DATA), judged by their poses; those that are not there are skipped.
 set -euo pipefail
@@ -56,6 +56,23 @@ record kitti_00 kitti kitti_00
 record euroc_v1_01 euroc euroc_v1_01/mav0
 record euroc_v1_01-every_2nd euroc euroc_v1_01/mav0 --every 2
 record euroc_v1_01-every_4th euroc euroc_v1_01/mav0 --every 4
+
+# judgeWithout NAME SEQUENCE OPTION...: the default with options set.
+judgeWithout() {
+  local lines=$results/$2-part-$1
+  [ -e "$lines.bag" ] || "$tools/track_bag" "$results/$2.bag" "$lines.bag" --times "${@:3}" >"$lines.txt"
+  [ "$lines.json" -nt "$lines.bag" ] || "$tools/evaluate_tracks" "$lines.bag" --json "$lines.json" >>"$lines.txt"
+}
+parts=()
+for seed in $seeds; do parts+=("fast-20-$seed" "fast-5-$seed" "corridor-5-$seed" "corridor-3.3-$seed" "street-10-$seed"); done
+if [ -e "$results/kitti_00.bag" ]; then parts+=(kitti_00); fi
+for sequence in "${parts[@]}"; do
+  judgeWithout default "$sequence"
+  judgeWithout depth_check "$sequence" --set check_depth=false
+  judgeWithout ego_motion "$sequence" --set ego_motion=false
+  judgeWithout imu "$sequence" --set prior=image
+  judgeWithout prior "$sequence" --set prior=none
+done
 
 # The seeds are one word each.
 # shellcheck disable=SC2086

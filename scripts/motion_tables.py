@@ -10,6 +10,12 @@ RATES = ['20', '10', '5', '3.3']
 RECORDED = ['kitti_00', 'euroc_v1_01', 'euroc_v1_01-every_2nd', 'euroc_v1_01-every_4th']
 
 
+PARTS = [('none (the default)', 'default'), ('depth check (`check_depth=false`)', 'depth_check'),
+         ('translation and depth (`ego_motion=false`)', 'ego_motion'), ('IMU (`prior=image`)', 'imu'),
+         ('motion prior (`prior=none`)', 'prior')]
+PART_FLIGHTS = ['fast-20', 'fast-5', 'corridor-5', 'corridor-3.3', 'street-10']
+
+
 def measures(folder, sequence, tracker):
     """What evaluate_tracks says of one sequence, None: not measured."""
     path = os.path.join(folder, '{}-{}.json'.format(sequence, tracker))
@@ -47,6 +53,29 @@ def recorded_cell(row):
                                            text(row['track_length'], '{:.1f}'))
 
 
+def part_cell(rows):
+    if not rows:
+        return 'not measured'
+    ratio = mean(rows, 'inlier_ratio_2px')
+    if ratio is None:
+        ratio = mean(rows, 'three_view_ratio_2px')
+    return '{} / {} / {}'.format(text(ratio, '{:.2f}', 100.0), text(mean(rows, 'track_length'), '{:.1f}'),
+                                 text(mean(rows, 'ms_mean'), '{:.2f}'))
+
+
+def parts_table(folder, seeds):
+    columns = [(name, ['{}-{}'.format(name, seed) for seed in seeds]) for name in PART_FLIGHTS] + [('kitti_00', ['kitti_00'])]
+    print('One part off at a time: under 2 px [%] (kitti_00: triples within 2 px) / images per track / time per image [ms]\n')
+    print('| part off | {} |\n|{}'.format(' | '.join(name for name, _ in columns), '---|' * (len(columns) + 1)))
+    for words, part in PARTS:
+        cells = []
+        for _, sequences in columns:
+            rows = [measures(folder, sequence, 'part-' + part) for sequence in sequences]
+            cells.append(part_cell([row for row in rows if row is not None]))
+        print('| {} | {} |'.format(words, ' | '.join(cells)))
+    print()
+
+
 def judges_cell(rows):
     """Exact judge and three-view judge of the same triples."""
     if not rows:
@@ -80,6 +109,7 @@ def main():
     table('Recorded: triples within 2 px [%] / within 1 px [%] / left out of all triples [%] / refuted of all triples [%] / '
           'images per track', [(name, name) for name in RECORDED],
           lambda sequence, tracker: recorded_cell(measures(folder, sequence, tracker)))
+    parts_table(folder, seeds)
     table('Two judges of the same triples: both line pairs within 2 px of the exact truth [%] / right by three views [%] / left out '
           'of all triples [%]', flights, of_flights(judges_cell))
 

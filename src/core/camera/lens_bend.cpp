@@ -106,7 +106,7 @@ LineBend LensBend::between(const LineSegment& segment, const Eigen::Vector3d& st
 
 Eigen::Vector2f LensBend::beyond(const LineSegment& segment, float distance) const {
   const float share = distance / segment.length();
-  const Eigen::Vector2f straight = segment.at(1.0F + share);
+  Eigen::Vector2f straight = segment.at(1.0F + share);
   if (!camera_) return straight;
   const std::optional<Eigen::Vector3d> start = camera_->unproject(segment.start.cast<double>());
   const std::optional<Eigen::Vector3d> end = camera_->unproject(segment.end.cast<double>());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "image/patch_reader.h"
 #include "tet_line_tracker/geometry/line_segment.h"
@@ -14,12 +15,15 @@ constexpr float kCoarseStep = 0.2F;  ///< iterations end below it [px of the lev
 constexpr float kFineStep = 0.05F;
 constexpr float kMaxMismatch = 0.2F;  ///< share of the contrast of a patch that may not match
 constexpr float kGrayNoise = 9.0F;    ///< variance of the gray values that any picture has [gray^2]
-constexpr int kSureLevel = 2;         ///< where the flow begins for corners whose place is nearly known
+constexpr int kCoarsestEnd = 1;  ///< a place is exact enough that the flow has on this level or a finer one
+constexpr int kSureLevel = 2;    ///< where the flow begins for corners whose place is nearly known
 
 constexpr int kSelectionLevel = 2;
 constexpr int kHalfWindow = 2;            ///< of the sums of gradient products [px of the level]
 constexpr float kMinEigenvalue = 400.0F;  ///< of the sums that noise does not reach [(gray / 2 px)^2]
-constexpr int kBorder = 3;                ///< of the selection level [px]
+constexpr int kManyCorners = 40;
+constexpr int kBorder = 3;       ///< of the selection level [px]
+constexpr int kExactReach = 10;  ///< of a corner's exact place round that of the selection level [px]
 
 }  // namespace
 
@@ -37,6 +41,7 @@ CornerTracker::CornerTracker() : corners_(static_cast<std::size_t>(kColumns * kR
 
 void CornerTracker::clear() {
   for (Corner& corner : corners_) corner.used = false;
+  odd_turn_ = false;
 }
 
 void CornerTracker::follow(const ImagePyramid& pyramid) {
@@ -53,28 +58,27 @@ bool CornerTracker::followCorner(const ImagePyramid& pyramid, Corner& corner) co
   PatchReader reader(shape);
   Eigen::Vector2f pixel = corner.expected;
   const int top = std::min(pyramid.levels(), kPyramidLevels) - 1;
+  int finest = kPyramidLevels;  // level that showed a corner
+  float mismatch = 0.0F;        // there, beyond what may be
   for (int j = corner.sure ? std::min(top, kSureLevel) : top; j >= Corner::kFinest; --j) {
     const Patch& patch = corner.patches[static_cast<std::size_t>(j - Corner::kFinest)];
     const kernels::PatchTemplate& reference = patch.reference;
     const SymmetricMatrix hessian{reference.xx, reference.xy, reference.yy};
     // A level that shows no corner leaves its place to the next.
-    if (!(hessian.determinant() > 1e-3F * (hessian.xx + hessian.yy) * (hessian.xx + hessian.yy))) {
-      if (j == Corner::kFinest) return false;
-      continue;
-    }
+    if (!(hessian.determinant() > 1e-3F * (hessian.xx + hessian.yy) * (hessian.xx + hessian.yy))) continue;
     const SymmetricMatrix inverse = hessian.inverse();
     const float scale = ImagePyramid::scale(j);
     const Eigen::Vector2f start = scale * pixel;
     Eigen::Vector2f centre = start;
     const ImageBounds bounds = ImageBounds::ofImage(pyramid.level(j).cols, pyramid.level(j).rows);
     const float last_step = j == Corner::kFinest ? kFineStep : kCoarseStep;
-    float square = 0.0F;
+    finest = j;
     for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
       if (!bounds.contains(centre)) return false;
       kernels::AlignmentSums sums;
       kernels::active().align(reader.patch(pyramid.level(j), centre), shape, reference, gray.data(), &sums);
       const PatchMatch match = matchOf(patch, sums, pixels);
-      square = match.square;
+      mismatch = match.square - kMaxMismatch * reference.gray_gray / pixels;
       const Eigen::Vector2f step = -(inverse * match.slope);
       centre += step;
       // Written so that NaN fails.
@@ -82,11 +86,9 @@ bool CornerTracker::followCorner(const ImagePyramid& pyramid, Corner& corner) co
       if (step.norm() < last_step) break;
     }
     pixel = centre / scale;
-    if (j == Corner::kFinest && square > kMaxMismatch * reference.gray_gray / pixels + kGrayNoise)
-      return false;
   }
   corner.pixel = pixel;
-  return true;
+  return finest <= kCoarsestEnd && mismatch <= kGrayNoise;
 }
 
 void CornerTracker::extractTemplates(const ImagePyramid& pyramid) {
@@ -116,76 +118,108 @@ void CornerTracker::addCorners(const ImagePyramid& pyramid) {
     return static_cast<std::size_t>(std::clamp(row, 0, kRows - 1) * kColumns +
                                     std::clamp(column, 0, kColumns - 1));
   };
+  int used = 0;
   for (Corner& corner : corners_) {
     // Two in a cell tell hardly more than one.
     if (!corner.used) continue;
     bool& cell = taken[cellOf(corner.pixel)];
-    if (cell) corner.used = false;
+    if (cell) {
+      corner.used = false;
+    } else {
+      ++used;
+    }
     cell = true;
   }
+  // Where there are many, every second empty cell waits for the next image.
+  odd_turn_ = !odd_turn_;
+  const bool all = used < kManyCorners;
   std::size_t slot = 0;
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
       if (taken[static_cast<std::size_t>(row * kColumns + column)]) continue;
+      if (!all && ((row + column) % 2 == 1) != odd_turn_) continue;
       const int left = std::max(kBorder, level.cols * column / kColumns);
       const int top = std::max(kBorder, level.rows * row / kRows);
       const int right = std::min(level.cols - kBorder, level.cols * (column + 1) / kColumns);
       const int bottom = std::min(level.rows - kBorder, level.rows * (row + 1) / kRows);
       Eigen::Vector2f pixel;
-      if (right <= left || bottom <= top ||
-          !bestCorner(level, cv::Rect(left, top, right - left, bottom - top), pixel)) {
-        continue;
-      }
+      const cv::Rect cell(left, top, right - left, bottom - top);
+      if (right <= left || bottom <= top || !bestCorner(level, cell, pixel)) continue;
       while (corners_[slot].used) ++slot;
       Corner& corner = corners_[slot];
       corner.used = true;
       corner.fresh = true;
-      corner.pixel = pixel / scale;
+      corner.pixel = exactPlace(pyramid.level(0), cell, pixel / scale);
     }
   }
 }
 
+Eigen::Vector2f CornerTracker::exactPlace(const cv::Mat& image, const cv::Rect& cell,
+                                          const Eigen::Vector2f& pixel) {
+  constexpr int kScale = 1 << kSelectionLevel;
+  const cv::Rect inside = cv::Rect(kBorder, kBorder, image.cols - 2 * kBorder, image.rows - 2 * kBorder) &
+                          cv::Rect(cell.tl() * kScale, cell.br() * kScale);
+  const cv::Rect around(static_cast<int>(pixel.x()) - kExactReach, static_cast<int>(pixel.y()) - kExactReach,
+                        2 * kExactReach + 1, 2 * kExactReach + 1);
+  Eigen::Vector2f exact;
+  return bestCorner(image, around & inside, exact) ? exact : pixel;
+}
+
 bool CornerTracker::bestCorner(const cv::Mat& level, const cv::Rect& cell, Eigen::Vector2f& pixel) {
+  // Sums of products over the window: first along rows, then along columns. They are whole numbers.
+  static_assert(kBorder > kHalfWindow, "gradients exist from the second row and column to the last but one");
   constexpr int kWindow = 2 * kHalfWindow + 1;
-  const int columns = cell.width;
-  const int rows = cell.height + 2 * kHalfWindow;
-  products_.assign(static_cast<std::size_t>(columns * rows), {0.0F, 0.0F, 0.0F});
-  for (int r = 0; r < rows; ++r) {
-    // Gradients exist from the second row and column to the last but one.
-    const int y = std::clamp(cell.y + r - kHalfWindow, 1, level.rows - 2);
-    const std::uint8_t* above = level.ptr<std::uint8_t>(y - 1);
-    const std::uint8_t* middle = level.ptr<std::uint8_t>(y);
-    const std::uint8_t* below = level.ptr<std::uint8_t>(y + 1);
-    for (int c = 0; c < columns; ++c) {
-      std::array<float, 3>& sums = products_[static_cast<std::size_t>(r * columns + c)];
-      for (int k = -kHalfWindow; k <= kHalfWindow; ++k) {
-        const int x = std::clamp(cell.x + c + k, 1, level.cols - 2);
-        const auto dx = static_cast<float>(middle[x + 1] - middle[x - 1]);
-        const auto dy = static_cast<float>(below[x] - above[x]);
-        sums[0] += dx * dx;
-        sums[1] += dx * dy;
-        sums[2] += dy * dy;
+  const auto columns = static_cast<std::size_t>(cell.width);
+  const std::size_t wide = columns + kWindow - 1;
+  const auto rows = static_cast<std::size_t>(cell.height + kWindow - 1);
+  sums_.resize(3 * (rows * columns + wide));
+  std::array<std::int32_t*, 3> products;
+  std::array<std::int32_t*, 3> sums;
+  for (std::size_t k = 0; k < 3; ++k) {
+    products[k] = sums_.data() + k * wide;
+    sums[k] = sums_.data() + 3 * wide + k * rows * columns;
+  }
+  for (std::size_t r = 0; r < rows; ++r) {
+    const int y = cell.y - kHalfWindow + static_cast<int>(r);
+    const int left = cell.x - kHalfWindow;
+    const std::uint8_t* above = level.ptr<std::uint8_t>(y - 1) + left;
+    const std::uint8_t* middle = level.ptr<std::uint8_t>(y) + left - 1;
+    const std::uint8_t* below = level.ptr<std::uint8_t>(y + 1) + left;
+    for (std::size_t c = 0; c < wide; ++c) {
+      const std::int32_t dx = middle[c + 2] - middle[c];
+      const std::int32_t dy = below[c] - above[c];
+      products[0][c] = dx * dx;
+      products[1][c] = dx * dy;
+      products[2][c] = dy * dy;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t* product = products[k];
+      std::int32_t* sum = sums[k] + r * columns;
+      for (std::size_t c = 0; c < columns; ++c) {
+        sum[c] = product[c] + product[c + 1] + product[c + 2] + product[c + 3] + product[c + 4];
       }
     }
   }
+  static_assert(kWindow == 5, "sums of five");
   float best = kMinEigenvalue;
   bool found = false;
   for (int r = 0; r < cell.height; ++r) {
-    for (int c = 0; c < columns; ++c) {
-      float xx = 0.0F;
-      float xy = 0.0F;
-      float yy = 0.0F;
-      for (int k = 0; k < kWindow; ++k) {
-        const std::array<float, 3>& sums = products_[static_cast<std::size_t>((r + k) * columns + c)];
-        xx += sums[0];
-        xy += sums[1];
-        yy += sums[2];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t* sum = sums[k] + static_cast<std::size_t>(r) * columns;
+      for (std::size_t c = 0; c < columns; ++c) {
+        products[k][c] =
+            sum[c] + sum[c + columns] + sum[c + 2 * columns] + sum[c + 3 * columns] + sum[c + 4 * columns];
       }
-      const float smaller = 0.5F * (xx + yy - std::sqrt((xx - yy) * (xx - yy) + 4.0F * xy * xy));
-      if (smaller <= best) continue;
-      best = smaller;
+    }
+    for (std::size_t c = 0; c < columns; ++c) {
+      const auto xx = static_cast<float>(products[0][c]);
+      const auto xy = static_cast<float>(products[1][c]);
+      const auto yy = static_cast<float>(products[2][c]);
+      // Both eigenvalues are larger than `best`, told without a root.
+      if (!(xx > best && (xx - best) * (yy - best) > xy * xy)) continue;
+      best = 0.5F * (xx + yy - std::sqrt((xx - yy) * (xx - yy) + 4.0F * xy * xy));
       found = true;
-      pixel = {static_cast<float>(cell.x + c), static_cast<float>(cell.y + r)};
+      pixel = {static_cast<float>(cell.x + static_cast<int>(c)), static_cast<float>(cell.y + r)};
     }
   }
   return found;

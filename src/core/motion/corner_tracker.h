@@ -57,11 +57,16 @@ class CornerTracker {
  private:
   bool followCorner(const ImagePyramid& pyramid, Corner& corner) const;
   void addCorners(const ImagePyramid& pyramid);
-  /// The best corner of a cell of the level for selection; false when it shows none.
+  /// The best corner of a cell of a level; false when it shows none.
   bool bestCorner(const cv::Mat& level, const cv::Rect& cell, Eigen::Vector2f& pixel);
 
+  /// A window of the selection level reaches over its corner by several px, those of the finest level do not.
+  /// `cell` of the selection level, which the corner does not leave.
+  Eigen::Vector2f exactPlace(const cv::Mat& image, const cv::Rect& cell, const Eigen::Vector2f& pixel);
+
   std::vector<Corner> corners_;
-  std::vector<std::array<float, 3>> products_;  ///< of gradients, summed over columns
+  bool odd_turn_{false};            ///< which of the empty cells are looked into
+  std::vector<std::int32_t> sums_;  ///< of products of gradients
 };
 
 }  // namespace tet_line_tracker

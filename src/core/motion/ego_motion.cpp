@@ -1,6 +1,7 @@
 #include "motion/ego_motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -9,13 +10,20 @@
 namespace tet_line_tracker {
 namespace {
 
-constexpr double kGyroSigma = 0.001;   ///< of a rotation that the gyroscope measured, besides its bias [rad]
-constexpr double kImageSigma = 0.04;   ///< of one that the images alone show: it takes up parallax [rad]
-constexpr std::size_t kMinRatios = 5;  ///< corners that must tell how much longer a step is than the last
+constexpr double kGyroSigma = 0.001;  ///< of a rotation that the gyroscope measured, besides its bias [rad]
+constexpr double kImageSigma = 0.04;  ///< of one that the images alone show: it takes up parallax [rad]
+constexpr double kOtherRotation = 0.02;   ///< a difference that corners are to decide on [rad]
+constexpr std::size_t kManyInliers = 20;  ///< that no chance brings together
+constexpr std::size_t kMinRatios = 5;     ///< corners that must tell how much longer a step is than the last
 constexpr double kMaxRatio = 4.0;
 constexpr double kMinMovement = 2.0;  ///< by parallax, for a corner to tell that [px]
 constexpr double kNewWeight = 0.6;    ///< of a measured inverse depth against that of the images before
 constexpr double kMinDepth = 1e-4;    ///< corners at infinity count as this far [1 / step]
+
+/// Turns to look for corners from, when nothing else finds them again: as far apart as the flow reaches
+/// [rad].
+constexpr std::array<double, 5> kYaws = {0.0, 0.2, -0.2, 0.4, -0.4};
+constexpr std::array<double, 3> kPitches = {0.0, 0.2, -0.2};
 
 }  // namespace
 
@@ -34,26 +42,33 @@ void EgoMotionTracker::reset() {
   last_interval_s_ = 0.0;
 }
 
-void EgoMotionTracker::expect(const MotionPrediction& prediction, double interval_s) {
+void EgoMotionTracker::rememberPlaces() {
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    known_[i].followed = corners_.corner(i).used;
+    known_[i].pixel_before = corners_.corner(i).pixel;
+    known_[i].inverse_before = 0.0;
+  }
+}
+
+void EgoMotionTracker::expect(const Eigen::Matrix3d& rotation, double interval_s) {
   const double ratio = last_interval_s_ > 0.0 ? interval_s / last_interval_s_ : 1.0;
-  const Eigen::Vector3d step = ratio * (prediction.rotation * translation_);
+  const Eigen::Vector3d step = ratio * (rotation * translation_);
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     CornerTracker::Corner& corner = corners_.corner(i);
+    const Known& known = known_[i];
+    corner.used = known.followed;
     if (!corner.used) continue;
-    Known& known = known_[i];
-    known.pixel_before = corner.pixel;
-    known.inverse_before = 0.0;
-    corner.expected = corner.pixel;
+    corner.expected = known.pixel_before;
     corner.sure = false;
     const std::optional<Eigen::Vector2d> pixel =
-        camera_->project(prediction.rotation * known.ray + known.inverse_depth * step);
+        camera_->project(rotation * known.ray + known.inverse_depth * step);
     if (!pixel || !pixel->allFinite()) continue;
     corner.expected = pixel->cast<float>();
     corner.sure = known.inverse_depth > 0.0;
   }
 }
 
-void EgoMotionTracker::collectPairs(const MotionPrediction& prediction) {
+void EgoMotionTracker::collectPairs(const Eigen::Matrix3d& rotation) {
   pairs_.clear();
   slots_.clear();
   for (std::size_t i = 0; i < corners_.size(); ++i) {
@@ -65,10 +80,33 @@ void EgoMotionTracker::collectPairs(const MotionPrediction& prediction) {
       continue;
     }
     PointPair& pair = pairs_.emplace_back();
-    pair.before = prediction.rotation * known_[i].ray;
+    pair.before = rotation * known_[i].ray;
     pair.now = now->homogeneous();
     slots_.push_back(i);
   }
+}
+
+EgoMotion EgoMotionTracker::follow(const ImagePyramid& pyramid, double interval_s,
+                                   const Eigen::Matrix3d& rotation, const std::optional<Turn>& measured) {
+  expect(rotation, interval_s);
+  corners_.follow(pyramid);
+  collectPairs(rotation);
+  EpipolarEstimator::Prior prior;
+  prior.rotation_sigma = kImageSigma;
+  if (measured) {
+    prior.rotation = so3Log(measured->rotation * rotation.transpose());
+    prior.rotation_sigma = kGyroSigma + measured->deviation;
+  }
+  const double elapsed = last_interval_s_ > 0.0 ? interval_s / last_interval_s_ : 1.0;
+  prior.steady = so3Log(so3Exp(elapsed * rotation_).toRotationMatrix() * rotation.transpose());
+  prior.translation = rotation * translation_;
+  EgoMotion motion = estimator_.estimate(pairs_, focal_, prior);
+  if (measured && !measured->trusted && !motion.rotates) {
+    prior.rotation.setZero();
+    prior.rotation_sigma = kImageSigma;
+    motion = estimator_.estimate(pairs_, focal_, prior);
+  }
+  return motion;
 }
 
 double EgoMotionTracker::stepRatio(const EgoMotion& motion, double fallback) {
@@ -106,30 +144,44 @@ void EgoMotionTracker::learnDepths(const EgoMotion& motion, double ratio) {
   }
 }
 
+EgoMotion EgoMotionTracker::followFromElsewhere(const ImagePyramid& pyramid, double interval_s,
+                                                const std::optional<Turn>& measured,
+                                                MotionPrediction& prediction) {
+  const Eigen::Matrix3d predicted = prediction.rotation;
+  EgoMotion motion;
+  const auto tryFrom = [&](const Eigen::Matrix3d& rotation, std::size_t min_inliers) {
+    if (motion.rotates || so3Log(rotation * predicted.transpose()).norm() < kOtherRotation) return;
+    motion = follow(pyramid, interval_s, rotation, measured);
+    motion.rotates = motion.rotates && motion.inliers >= min_inliers;
+    if (!motion.rotates) {
+      motion = EgoMotion();
+      return;
+    }
+    prediction.rotation = rotation;
+    prediction.source = measured ? MotionPrediction::Source::kImu : MotionPrediction::Source::kImage;
+  };
+  if (measured) {
+    tryFrom(measured->rotation, 0);
+    return motion;
+  }
+  const double elapsed = last_interval_s_ > 0.0 ? interval_s / last_interval_s_ : 1.0;
+  tryFrom(so3Exp(elapsed * rotation_).toRotationMatrix(), 0);
+  for (const double yaw : kYaws) {
+    for (const double pitch : kPitches) tryFrom(so3Exp({pitch, yaw, 0.0}).toRotationMatrix(), kManyInliers);
+  }
+  return motion;
+}
+
 void EgoMotionTracker::update(const ImagePyramid& pyramid, double interval_s,
                               const std::optional<Turn>& measured, MotionPrediction& prediction) {
   if (!camera_) return;
-  expect(prediction, interval_s);
-  corners_.follow(pyramid);
-  collectPairs(prediction);
-  EpipolarEstimator::Prior prior;
-  prior.rotation_sigma = kImageSigma;
-  if (measured) {
-    prior.rotation = so3Log(measured->rotation * prediction.rotation.transpose());
-    prior.rotation_sigma = kGyroSigma + measured->deviation;
-  }
-  const double elapsed = last_interval_s_ > 0.0 ? interval_s / last_interval_s_ : 1.0;
-  prior.steady = so3Log(so3Exp(elapsed * rotation_).toRotationMatrix() * prediction.rotation.transpose());
-  prior.translation = prediction.rotation * translation_;
-  EgoMotion motion = estimator_.estimate(pairs_, focal_, prior);
-  if (measured && !measured->trusted && !motion.rotates) {
-    prior.rotation.setZero();
-    prior.rotation_sigma = kImageSigma;
-    motion = estimator_.estimate(pairs_, focal_, prior);
-  }
+  rememberPlaces();
+  EgoMotion motion = follow(pyramid, interval_s, prediction.rotation, measured);
+  if (!motion.rotates) motion = followFromElsewhere(pyramid, interval_s, measured, prediction);
   if (motion.known()) {
     prediction.rotation = so3Exp(motion.rotation).toRotationMatrix() * prediction.rotation;
     for (PointPair& pair : pairs_) pair.before += motion.rotation.cross(pair.before);
+    const double elapsed = last_interval_s_ > 0.0 ? interval_s / last_interval_s_ : 1.0;
     prediction.step_ratio = translation_.isZero() ? 0.0 : stepRatio(motion, elapsed);
     prediction.translation = motion.translation;
     prediction.inliers = motion.inliers;

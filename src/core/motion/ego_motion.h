@@ -44,14 +44,23 @@ class EgoMotionTracker {
 
  private:
   struct Known {
+    bool followed{false};                      ///< into this image, whether it was found or not
     Eigen::Vector3d ray{0.0, 0.0, 1.0};        ///< in the last image, z = 1
     double inverse_depth{0.0};                 ///< there; 0: not known yet
     Eigen::Vector2f pixel_before{0.0F, 0.0F};  ///< in the image before that [px]
     double inverse_before{0.0};                ///< there
   };
 
-  void expect(const MotionPrediction& prediction, double interval_s);
-  void collectPairs(const MotionPrediction& prediction);
+  void rememberPlaces();
+  /// Follows the corners from where `rotation` puts them, and takes the motion from them.
+  EgoMotion follow(const ImagePyramid& pyramid, double interval_s, const Eigen::Matrix3d& rotation,
+                   const std::optional<Turn>& measured);
+  /// Where the prediction led the corners astray: from the gyroscope's rotation, or without it from going on
+  /// as before and from a few turns. Corrects the prediction when it finds them again.
+  EgoMotion followFromElsewhere(const ImagePyramid& pyramid, double interval_s,
+                                const std::optional<Turn>& measured, MotionPrediction& prediction);
+  void expect(const Eigen::Matrix3d& rotation, double interval_s);
+  void collectPairs(const Eigen::Matrix3d& rotation);
   double stepRatio(const EgoMotion& motion, double fallback);
   void learnDepths(const EgoMotion& motion, double ratio);
 

@@ -31,6 +31,10 @@ constexpr float kMinLead = 0.95F;
 /// looks like a few milliradians from image to image.
 constexpr float kAgreement = 0.015F;
 
+Eigen::Matrix3d rotationOf(const Eigen::Vector3f& vector) {
+  return so3Exp(vector.cast<double>()).toRotationMatrix();
+}
+
 }  // namespace
 
 double MotionPrediction::angle() const {
@@ -98,12 +102,21 @@ class MotionPrior::Implementation {
   std::int64_t imuStamp(std::int64_t image_stamp_ns) const {
     return image_stamp_ns + std::llround(1e9 * imuTimeOffset());
   }
+  Eigen::Vector3f withoutBias(const Eigen::Vector3f& measured, float interval_s) const {
+    return measured - interval_s * gyro_bias_.value();
+  }
   void prepareCamera(const ImagePyramid& pyramid);
   std::optional<Eigen::Vector3f> integrateGyro(std::int64_t stamp_ns) const;
   bool estimatesEgoMotion() const { return parameters_.ego_motion && camera_ != nullptr; }
-  /// `seen`: rotation by the alignment of the images alone.
-  void addEgoMotion(const ImagePyramid& pyramid, std::int64_t stamp_ns,
-                    const std::optional<Eigen::Vector3f>& seen, MotionPrediction& prediction);
+  /// `measured`, `seen`: rotation by the gyroscope, its bias included, and by the alignment of the images
+  /// alone, where it was needed.
+  void addEgoMotion(const ImagePyramid& pyramid, const std::optional<Eigen::Vector3f>& measured,
+                    const std::optional<Eigen::Vector3f>& seen, float interval_s,
+                    MotionPrediction& prediction);
+  /// Rotation by gyroscope or images, whichever the images confirm; none where neither is.
+  void chooseRotation(const ImagePyramid& pyramid, const Eigen::Vector3f& seen,
+                      const std::optional<Eigen::Vector3f>& measured, float interval_s,
+                      MotionPrediction& prediction);
   Eigen::Vector3f alignImages(const ImagePyramid& pyramid);
   /// Rotation from what the gyroscope `measured` and what the images alone have `seen`, whichever fits
   /// better; nothing when they contradict each other. Learns the bias.
@@ -166,7 +179,7 @@ std::optional<Eigen::Vector3f> MotionPrior::Implementation::fuse(RotationAligner
                                                                  const Eigen::Vector3f& measured,
                                                                  Eigen::Vector3f seen, float max_cost,
                                                                  float interval_s) {
-  const Eigen::Vector3f corrected = measured - interval_s * gyro_bias_.value();
+  const Eigen::Vector3f corrected = withoutBias(measured, interval_s);
   const float cost = aligner.cost(pyramid, corrected);
   if (cost < max_cost) {
     // Where the images alone go astray, the gyroscope leads them back.
@@ -179,44 +192,45 @@ std::optional<Eigen::Vector3f> MotionPrior::Implementation::fuse(RotationAligner
   return leads ? corrected : seen;
 }
 
+void MotionPrior::Implementation::chooseRotation(const ImagePyramid& pyramid, const Eigen::Vector3f& seen,
+                                                 const std::optional<Eigen::Vector3f>& measured,
+                                                 float interval_s, MotionPrediction& prediction) {
+  RotationAligner& aligner = fine_.hasTemplate() ? fine_ : coarse_;
+  const float max_cost = kMinImprovement * aligner.cost(pyramid, Eigen::Vector3f::Zero());
+  const std::optional<Eigen::Vector3f> fused =
+      measured ? fuse(aligner, pyramid, *measured, seen, max_cost, interval_s) : std::nullopt;
+  if (fused && fused->allFinite() && aligner.cost(pyramid, *fused) < max_cost) {
+    prediction.source = MotionPrediction::Source::kImu;
+    prediction.rotation = rotationOf(*fused);
+  } else if ((!measured || parameters_.prior == "auto") && seen.allFinite() &&
+             aligner.cost(pyramid, seen) < max_cost) {
+    prediction.source = MotionPrediction::Source::kImage;
+    prediction.rotation = rotationOf(seen);
+  }
+}
+
 MotionPrediction MotionPrior::Implementation::predict(const ImagePyramid& pyramid, std::int64_t stamp_ns) {
   MotionPrediction prediction;
   if (parameters_.prior == "none") return prediction;
   prepareCamera(pyramid);
-  std::optional<Eigen::Vector3f> aligned;
-  RotationAligner& aligner = fine_.hasTemplate() ? fine_ : coarse_;
-  if (aligner.hasTemplate()) {
-    const float max_cost = kMinImprovement * aligner.cost(pyramid, Eigen::Vector3f::Zero());
-    Eigen::Vector3f rotation = Eigen::Vector3f::Zero();
-    const Eigen::Vector3f seen = alignImages(pyramid);
-    aligned = seen;
-    const std::optional<Eigen::Vector3f> measured = integrateGyro(stamp_ns);
-    const std::optional<Eigen::Vector3f> fused =
-        measured ? fuse(aligner, pyramid, *measured, seen, max_cost,
-                        1e-9F * static_cast<float>(stamp_ns - last_stamp_ns_))
-                 : std::nullopt;
-    if (measured && estimatesEgoMotion() && gyro_bias_.isTrusted()) {
-      // Images align by what moves with the most of them, and large parallax leads them astray.
-      prediction.source = MotionPrediction::Source::kImu;
-      rotation = *measured - 1e-9F * static_cast<float>(stamp_ns - last_stamp_ns_) * gyro_bias_.value();
-    } else if (fused && fused->allFinite() && aligner.cost(pyramid, *fused) < max_cost) {
-      prediction.source = MotionPrediction::Source::kImu;
-      rotation = *fused;
-    } else if ((!measured || parameters_.prior == "auto") && seen.allFinite() &&
-               aligner.cost(pyramid, seen) < max_cost) {
-      prediction.source = MotionPrediction::Source::kImage;
-      rotation = seen;
-    }
-    prediction.rotation = so3Exp(rotation.cast<double>()).toRotationMatrix();
-    last_rotation_ = rotation;
-    if (estimated_offset_ && camera_from_imu_) {
-      estimated_offset_->addImageRotation(last_stamp_ns_, stamp_ns, seen.cast<double>(), *camera_from_imu_);
-    }
+  const float interval_s = 1e-9F * static_cast<float>(stamp_ns - last_stamp_ns_);
+  const bool can_align = fine_.hasTemplate() || coarse_.hasTemplate();
+  const std::optional<Eigen::Vector3f> measured = can_align ? integrateGyro(stamp_ns) : std::nullopt;
+  const bool trusted = measured && estimatesEgoMotion() && gyro_bias_.isTrusted();
+  std::optional<Eigen::Vector3f> seen;
+  if (can_align && (!trusted || estimated_offset_)) seen = alignImages(pyramid);
+  if (trusted) {
+    // Images align by what moves with the most of them, and large parallax leads them astray.
+    prediction.source = MotionPrediction::Source::kImu;
+    prediction.rotation = rotationOf(withoutBias(*measured, interval_s));
+  } else if (seen) {
+    chooseRotation(pyramid, *seen, measured, interval_s, prediction);
   }
-  if (estimatesEgoMotion()) {
-    addEgoMotion(pyramid, stamp_ns, aligned, prediction);
-    last_rotation_ = so3Log(prediction.rotation).cast<float>();
+  if (seen && estimated_offset_ && camera_from_imu_) {
+    estimated_offset_->addImageRotation(last_stamp_ns_, stamp_ns, seen->cast<double>(), *camera_from_imu_);
   }
+  if (estimatesEgoMotion()) addEgoMotion(pyramid, measured, seen, interval_s, prediction);
+  last_rotation_ = so3Log(prediction.rotation).cast<float>();
   coarse_.extractTemplate(pyramid);
   fine_.extractTemplate(pyramid);
   // An estimate may still move back.
@@ -225,29 +239,26 @@ MotionPrediction MotionPrior::Implementation::predict(const ImagePyramid& pyrami
   return prediction;
 }
 
-void MotionPrior::Implementation::addEgoMotion(const ImagePyramid& pyramid, std::int64_t stamp_ns,
-                                               const std::optional<Eigen::Vector3f>& seen,
+void MotionPrior::Implementation::addEgoMotion(const ImagePyramid& pyramid,
+                                               const std::optional<Eigen::Vector3f>& measured,
+                                               const std::optional<Eigen::Vector3f>& seen, float interval_s,
                                                MotionPrediction& prediction) {
-  const double interval_s = 1e-9 * static_cast<double>(stamp_ns - last_stamp_ns_);
-  const std::optional<Eigen::Vector3f> measured = integrateGyro(stamp_ns);
   std::optional<EgoMotionTracker::Turn> turn;
   if (measured) {
-    const Eigen::Vector3f corrected = *measured - static_cast<float>(interval_s) * gyro_bias_.value();
-    turn = EgoMotionTracker::Turn{so3Exp(corrected.cast<double>()).toRotationMatrix(),
-                                  interval_s * static_cast<double>(gyro_bias_.deviation()),
+    turn = EgoMotionTracker::Turn{rotationOf(withoutBias(*measured, interval_s)),
+                                  static_cast<double>(interval_s * gyro_bias_.deviation()),
                                   gyro_bias_.isTrusted()};
   }
-  ego_motion_.update(pyramid, interval_s, turn, prediction);
+  ego_motion_.update(pyramid, static_cast<double>(interval_s), turn, prediction);
   if (!measured) return;
-  const auto interval = static_cast<float>(interval_s);
   if (prediction.confirmed && (gyro_bias_.isTrusted() || !prediction.translation.isZero())) {
     // The rotation that is left when translation has its part: parallax does not look like a bias.
-    gyro_bias_.learn(*measured, so3Log(prediction.rotation).cast<float>(), interval);
+    gyro_bias_.learn(*measured, so3Log(prediction.rotation).cast<float>(), interval_s);
   } else if (gyro_bias_.isTrusted()) {
     gyro_bias_.doubt();
-  } else if (seen) {
+  } else if (seen && (withoutBias(*measured, interval_s) - *seen).norm() < kAgreement) {
     // Where corners show no parallax, they were rotated by the gyroscope itself.
-    gyro_bias_.learn(*measured, *seen, interval);
+    gyro_bias_.learn(*measured, *seen, interval_s);
   }
 }
 

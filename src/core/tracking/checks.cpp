@@ -62,7 +62,8 @@ bool MaskCheck::passes(const VisibleArea& area, TrackedLine& line, TrackState& s
   return area.mask().empty() || mostlyInMask({line.segment, state.bend}, area.mask());
 }
 
-void DepthCheck::apply(const VisibleArea&, TrackTable& tracks, FrameStatistics&) {
+void DepthCheck::apply(const VisibleArea&, TrackTable& tracks, FrameStatistics& statistics) {
+  if (statistics.translation_inliers < kMinInliers) return;
   std::size_t alive = 0;
   std::size_t conflicts = 0;
   for (std::size_t i = 0; i < tracks.size(); ++i) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -125,10 +126,11 @@ class MaskCheck : public SingleTrackCheck {
   bool passes(const VisibleArea& area, TrackedLine& line, TrackState&, FrameStatistics&) const override;
 };
 
-/// Rejects lines whose movement contradicts their depth, as long as most lines agree with the motion of the
-/// camera.
+/// Rejects lines whose movement contradicts their depth, as long as enough corners and most lines agree with
+/// the motion of the camera.
 class DepthCheck : public TrackCheck {
  public:
+  static constexpr std::uint32_t kMinInliers = 20;  ///< a direction from a few corners may be any
   DepthCheck() : TrackCheck(LossReason::kDepth) {}
   void apply(const VisibleArea& area, TrackTable& tracks, FrameStatistics& statistics) override;
 };

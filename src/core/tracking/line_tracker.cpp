@@ -12,19 +12,13 @@
 #include "tet_line_tracker/tracking/frame_sequence.h"
 #include "tracking/stopwatch.h"
 #include "tracking/track_follower.h"
+#include "tracking/track_refiner.h"
 #include "tracking/track_table.h"
 #include "tracking/tracking_method.h"
 #include "tracking/visible_area.h"
 #include "tracking/worker_pool.h"
 
 namespace tet_line_tracker {
-namespace {
-
-/// A line that the border has just cut has shown less of itself to the flow: its edge must make up for it.
-/// Over min_support.
-constexpr float kCutSupport = 1.2F;
-
-}  // namespace
 
 class LineTracker::Implementation {
  public:
@@ -50,7 +44,6 @@ class LineTracker::Implementation {
   void startEpoch();
   int pyramidLevels() const;
   void follow(const MotionPrediction& motion);
-  bool cutToImage(LineCurve& line, TrackState& state) const;
   void refine();
   void check();
   void detect(const cv::Mat& gray);
@@ -137,48 +130,20 @@ void LineTracker::Implementation::follow(const MotionPrediction& motion) {
   const auto followOne = [&](std::size_t i) {
     follower.follow(motion, pyramid_, tracks_.line(i), tracks_.state(i));
   };
-  workers_.run(tracks_.size(), std::cref(followOne));  // by reference: it is too large to be kept without heap
-}
-
-/// What lies outside shows no edge, and how far an edge is from the flow is known only where it is seen.
-bool LineTracker::Implementation::cutToImage(LineCurve& line, TrackState& state) const {
-  const float whole = line.chord.length();
-  const auto min_length = static_cast<float>(parameters_.detection.min_length);
-  if (area_.cutToBounds(0.0F, line) && (line.chord.length() == whole || line.chord.length() >= min_length)) {
-    return true;
-  }
-  state.loss = LossReason::kBorder;
-  return false;
+  // By reference: the function is too large to be copied without heap.
+  workers_.run(tracks_.size(), std::cref(followOne));
 }
 
 void LineTracker::Implementation::refine() {
   if (!method_.refiner) return;
-  const std::uint64_t image = frames_.frame().image_count;
-  workers_.run(tracks_.size(), [this, image](std::size_t i) {
-    TrackedLine& line = tracks_.line(i);
-    TrackState& state = tracks_.state(i);
-    if (state.lost()) return;
-    LineCurve curve = area_.lens().curve(line.segment);
-    if (!cutToImage(curve, state)) return;
-    EdgeFit fit = method_.refiner->fit(pyramid_.level(0), curve, state.contrast);
-    const bool cut = curve.chord.length() < line.segment.length();
-    if (cut && fit.support < kCutSupport * static_cast<float>(parameters_.refiner.min_support)) {
-      state.loss = LossReason::kSupport;
-      return;
+  const TrackRefiner refiner(method_, area_, parameters_);
+  const std::uint64_t number = frames_.frame().image_count;
+  const auto refineOne = [&](std::size_t i) {
+    if (!tracks_.state(i).lost()) {
+      refiner.refine(pyramid_.level(0), number, tracks_.line(i), tracks_.state(i));
     }
-    state.bend = curve.bend;
-    state.edge_offset = std::abs(fit.segment.distance(curve.chord.middle()));
-    const LineSegment found = fit.segment;
-    if (method_.grower &&
-        method_.grower->growTracked(pyramid_.level(0), area_, image, line, fit, state.bend)) {
-      state.setGrown(found, fit.segment);
-    }
-    state.support = fit.support;
-    state.contrast = fit.contrast;
-    line.segment = fit.segment;
-    line.sigma_px = fit.sigma_px;
-    line.covariance_px = fit.covariance_px;
-  });
+  };
+  workers_.run(tracks_.size(), std::cref(refineOne));
 }
 
 void LineTracker::Implementation::check() {

@@ -84,9 +84,11 @@ TEST(CornerTracker, KeepsOneCornerInACell) {
   const ImagePyramid pyramid = pyramidOf(blobs({0, 0}));
   corners.extractTemplates(pyramid);
   const std::size_t found = usedOf(corners);
-  follow(corners, pyramid.level(0));
-  corners.extractTemplates(pyramid);
-  EXPECT_EQ(usedOf(corners), found) << "an image that stands still brings no new ones";
+  for (int image = 0; image < 2; ++image) {
+    follow(corners, pyramid.level(0));
+    corners.extractTemplates(pyramid);
+  }
+  EXPECT_LE(usedOf(corners), found) << "an image that stands still brings no new ones";
 }
 
 }  // namespace

@@ -77,5 +77,43 @@ TEST(GyroBias, WhatIsNotFiniteIsIgnored) {
   EXPECT_EQ(bias.value(), Eigen::Vector3f(0.0F, 0.0F, 0.0F));
 }
 
+TEST(GyroBias, IsTrustedOnceImagesHaveAgreedForHalfASecond) {
+  GyroBias bias;
+  EXPECT_FALSE(bias.isTrusted());
+  learn(bias, 0.1F * kBias, 20.0F, 0.4F);
+  EXPECT_FALSE(bias.isTrusted());
+  learn(bias, 0.1F * kBias, 20.0F, 1.0F);
+  EXPECT_TRUE(bias.isTrusted());
+}
+
+TEST(GyroBias, IsNoLongerTrustedWhenTheImagesContradictIt) {
+  GyroBias bias;
+  learn(bias, 0.1F * kBias, 20.0F, 2.0F);
+  ASSERT_TRUE(bias.isTrusted());
+  // As of a gyroscope that stopped: 0.5 rad/s off.
+  for (int i = 0; i < 4; ++i) bias.learn({0.0F, 0.0F, 0.0F}, {0.025F, 0.0F, 0.0F}, 0.05F);
+  EXPECT_FALSE(bias.isTrusted());
+}
+
+TEST(GyroBias, IsNoLongerTrustedAfterEightImagesInARowThatShowNothing) {
+  GyroBias bias;
+  learn(bias, Eigen::Vector3f::Zero(), 20.0F, 2.0F);
+  for (int i = 0; i < 7; ++i) bias.doubt();
+  EXPECT_TRUE(bias.isTrusted());
+  bias.doubt();
+  EXPECT_FALSE(bias.isTrusted());
+  learn(bias, Eigen::Vector3f::Zero(), 20.0F, 0.5F);
+  EXPECT_TRUE(bias.isTrusted()) << "and it is again when they agree";
+}
+
+TEST(GyroBias, ItsDeviationShrinksWhileItIsLearned) {
+  GyroBias bias;
+  EXPECT_FLOAT_EQ(bias.deviation(), 0.1F);
+  learn(bias, kBias, 20.0F, 0.5F);
+  EXPECT_NEAR(bias.deviation(), 0.1F / 6.0F, 0.002F);
+  learn(bias, kBias, 20.0F, 5.0F);
+  EXPECT_FLOAT_EQ(bias.deviation(), 0.01F);
+}
+
 }  // namespace
 }  // namespace tet_line_tracker

@@ -62,6 +62,7 @@ TEST_F(Checks, DepthCheckLosesTheFewWhoseMovementContradictsTheirDepth) {
   DepthCheck check;
   EXPECT_EQ(check.reason(), LossReason::kDepth);
   for (int i = 0; i < 10; ++i) add(kHorizontal).depth_conflict = i == 3 || i == 7;
+  statistics_.translation_inliers = DepthCheck::kMinInliers;
   check.apply(area_, tracks_, statistics_);
   for (std::size_t i = 0; i < 10; ++i) {
     EXPECT_EQ(tracks_.state(i).loss, i == 3 || i == 7 ? LossReason::kDepth : LossReason::kCount) << i;
@@ -71,8 +72,17 @@ TEST_F(Checks, DepthCheckLosesTheFewWhoseMovementContradictsTheirDepth) {
 TEST_F(Checks, DepthCheckLosesNoneWhenManyContradictSinceTheMotionMayBeWrong) {
   DepthCheck check;
   for (int i = 0; i < 10; ++i) add(kHorizontal).depth_conflict = i < 3;
+  statistics_.translation_inliers = DepthCheck::kMinInliers;
   check.apply(area_, tracks_, statistics_);
   for (std::size_t i = 0; i < 10; ++i) EXPECT_FALSE(tracks_.state(i).lost()) << i;
+}
+
+TEST_F(Checks, DepthCheckLosesNoneWhereFewCornersTellTheMotion) {
+  DepthCheck check;
+  for (int i = 0; i < 10; ++i) add(kHorizontal).depth_conflict = i == 3;
+  statistics_.translation_inliers = DepthCheck::kMinInliers - 1;
+  check.apply(area_, tracks_, statistics_);
+  EXPECT_FALSE(tracks_.state(3).lost());
 }
 
 TEST_F(Checks, ALineMustNotBecomeLongerOrShorterThanMaxLengthRatio) {
