@@ -64,7 +64,7 @@ judgeWithout() {
   [ "$lines.json" -nt "$lines.bag" ] || "$tools/evaluate_tracks" "$lines.bag" --json "$lines.json" >>"$lines.txt"
 }
 parts=()
-for seed in $seeds; do parts+=("fast-20-$seed" "fast-5-$seed" "corridor-5-$seed" "corridor-3.3-$seed" "street-10-$seed"); done
+for seed in $seeds; do parts+=("fast-20-$seed" "fast-5-$seed" "fast-3.3-$seed" "corridor-5-$seed" "corridor-3.3-$seed" "street-10-$seed"); done
 if [ -e "$results/kitti_00.bag" ]; then parts+=(kitti_00); fi
 for sequence in "${parts[@]}"; do
   judgeWithout default "$sequence"
