@@ -24,8 +24,8 @@ LINKS = '#d9d9d9'
 SMALLEST_SHARE = 0.005
 
 
-def table_of(path, first_column):
-    """Rows, as dictionaries, of the first Markdown table whose first column has this name."""
+def table_of(path, *columns):
+    """Rows, as dictionaries, of the first Markdown table whose first columns have these names."""
     head = None
     rows = []
     with open(path) as file:
@@ -36,12 +36,12 @@ def table_of(path, first_column):
                 continue
             cells = [cell.strip() for cell in line.strip().strip('|').split('|')]
             if head is None:
-                if cells[0] == first_column:
+                if cells[:len(columns)] == list(columns):
                     head = cells
             elif set(cells[0]) != {'-'}:
                 rows.append(dict(zip(head, cells)))
     if not rows:
-        sys.exit('plot_benchmarks.py: {} holds no table with the first column "{}"'.format(path, first_column))
+        sys.exit('plot_benchmarks.py: {} holds no table with the first columns "{}"'.format(path, ', '.join(columns)))
     return rows
 
 
@@ -153,7 +153,7 @@ def main():
         sys.exit(__doc__.strip())
     tables, folder = sys.argv[1:]
     os.makedirs(folder, exist_ok=True)
-    plot_tracks(table_of(os.path.join(tables, 'tracking.md'), 'flight'), os.path.join(folder, 'tracks.png'))
+    plot_tracks(table_of(os.path.join(tables, 'tracking.md'), 'flight', 'tracker'), os.path.join(folder, 'tracks.png'))
     plot_times(table_of(os.path.join(tables, 'speed.md'), 'front end'), os.path.join(folder, 'times.png'))
 
 
