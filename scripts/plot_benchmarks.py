@@ -114,6 +114,7 @@ def plot_tracks(rows, path):
 def plot_times(rows, path):
     """Median, mean and 99th percentile of each front end; the ratio of the means beside them."""
     figure, axes = plt.subplots(figsize=(9, 3))
+    slowest = max(number(row['p99']) for row in rows)
     for i, row in enumerate(rows):
         median, mean, p99 = (number(row[key]) for key in ('median', 'mean', 'p99'))
         axes.plot([median, p99], [i, i], color=LINKS, linewidth=5, solid_capstyle='butt', zorder=1)
@@ -121,12 +122,12 @@ def plot_times(rows, path):
         axes.plot(mean, i, 'o', color='#1565c0', markersize=7, zorder=3)
         axes.plot(p99, i, '|', color='#c62828', markersize=12, markeredgewidth=2, zorder=3)
         axes.annotate('mean {:.2f} ms, {:.0f}x, {} lines'.format(mean, number(row['ratio']), row['lines per image']),
-                      (42, i), fontsize=8, va='center')
+                      (1.3 * slowest, i), fontsize=8, va='center')
     axes.plot([], [], '|', color='#1565c0', markersize=12, markeredgewidth=2, label='median')
     axes.plot([], [], 'o', color='#1565c0', markersize=7, label='mean')
     axes.plot([], [], '|', color='#c62828', markersize=12, markeredgewidth=2, label='99th percentile')
     axes.set_xscale('log')
-    axes.set_xlim(0.1, 400)
+    axes.set_xlim(0.1, 18.0 * slowest)
     axes.set_xticks([0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 40])
     axes.set_xticklabels(['0.1', '0.2', '0.5', '1', '2', '5', '10', '20', '40'])
     axes.minorticks_off()
@@ -136,7 +137,7 @@ def plot_times(rows, path):
     axes.set_ylim(len(rows) - 0.5, -0.5)
     axes.grid(axis='x', color='#eeeeee')
     axes.set_axisbelow(True)
-    axes.legend(fontsize=8, loc='lower center', bbox_to_anchor=(0.5, 0.02))
+    axes.legend(fontsize=8, loc='lower left', bbox_to_anchor=(0.01, 0.66))
     figure.tight_layout()
     save(figure, path)
 
