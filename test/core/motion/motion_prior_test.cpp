@@ -235,6 +235,32 @@ TEST(MotionPrior, LearnsABiasOfAFifthOfARadianPerSecondAtAnyRate) {
   }
 }
 
+TEST(MotionPrior, AGyroscopeIsTakenOnTrustUntilTheImagesShowNothingForAWhile) {
+  MotionPrior both(prior("imu"));
+  both.setCamera(camera());
+  both.setImuRotation(kCameraFromImu);
+  const ImagePyramid standing = view(turned({0, 0, 0}));
+  std::int64_t stamp = 0;
+  const auto see = [&](const ImagePyramid& pyramid, double rad_per_s) {
+    const Eigen::Vector3d velocity(0.0, 0.0, rad_per_s);
+    both.addAngularVelocity(stamp + 1, velocity);
+    stamp += kPeriod;
+    both.addAngularVelocity(stamp, velocity);
+    return both.predict(pyramid, stamp);
+  };
+  for (int image = 0; image < 20; ++image) see(standing, 0.0);
+  // A turn that the images do not confirm, as they show something else each time, is the gyroscope's word
+  // alone.
+  const auto seeAnother = [&](int image) {
+    return see(view(turned({20.0 * image, 37.0 * image, 0.0})), 0.4);
+  };
+  const MotionPrediction first = seeAnother(1);
+  EXPECT_STREQ(first.sourceName(), "imu");
+  EXPECT_NEAR(first.angle(), 0.02, 0.004);
+  for (int image = 2; image < 10; ++image) seeAnother(image % 2 == 0 ? 0 : 1);
+  EXPECT_STREQ(seeAnother(0).sourceName(), "none");
+}
+
 TEST(MotionPrior, AStandingCameraIsNotTurnedByAWrongImu) {
   MotionPrior both(prior("auto"));
   both.setCamera(camera());
