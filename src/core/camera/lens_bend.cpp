@@ -19,6 +19,8 @@ constexpr std::array<double, LineBend::kTerms> kMostShares{0.0051, 0.0452, 0.122
 constexpr float kShort = 60.0F;      ///< up to here few are enough [px]
 constexpr float kMiddling = 130.0F;  ///< up to here some are [px]
 constexpr float kLong = 250.0F;      ///< up to here many are [px]
+constexpr double kMaxSagitta = 1.0;  ///< more is no lens but a wrong calibration, in lengths of the chord
+constexpr double kMaxSum = 1e5;  ///< of the terms of a bend: no point of it is farther from the chord [px]
 
 template <std::size_t kPoints>
 LineBend bendThrough(const CameraModel& camera, const std::array<double, kPoints>& shares,
@@ -40,7 +42,7 @@ LineBend bendThrough(const CameraModel& camera, const std::array<double, kPoints
     q[i] = offset / (fraction * (1.0 - fraction));
     sagitta = std::max(sagitta, std::abs(offset));
   }
-  if (!(sagitta >= LensBend::kMinSagitta)) return {};
+  if (sagitta < LensBend::kMinSagitta || sagitta > kMaxSagitta * chord.norm()) return {};
   // The polynomial through all, by Newton's divided differences, then in powers of u.
   for (std::size_t order = 1; order < kPoints; ++order) {
     for (std::size_t i = kPoints - 1; i >= order; --i) q[i] = (q[i] - q[i - 1]) / (u[i] - u[i - order]);
@@ -50,6 +52,10 @@ LineBend bendThrough(const CameraModel& camera, const std::array<double, kPoints
     for (std::size_t k = kPoints - 1; k > 0; --k) c[k] = c[k - 1] - u[i] * c[k];
     c[0] = q[i] - u[i] * c[0];
   }
+  // Pixels of a lens that is not smooth may fall on each other; written so that NaN fails.
+  double sum = 0.0;
+  for (const double term : c) sum += std::abs(term);
+  if (!(sum < kMaxSum)) return {};
   LineBend bend;
   std::copy(c.begin(), c.end(), bend.c.begin());
   bend.terms = kPoints;

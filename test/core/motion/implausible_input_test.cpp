@@ -10,6 +10,7 @@
 
 #include "camera/camera_models.h"
 #include "synthetic_images.h"
+#include "tet_line_tracker/camera/lens_bend.h"
 #include "tet_line_tracker/tracking/line_tracker.h"
 
 namespace tet_line_tracker {
@@ -132,6 +133,23 @@ TEST(ImplausibleInput, AModelThatProjectsToNowhereCostsThePredictionAndNoLine) {
       LineTracker torn(parametersOf(method, "image"));
       torn.setCamera(std::make_shared<TornModel>(value));
       track(torn);
+    }
+  }
+}
+
+TEST(ImplausibleInput, NoModelBendsALineFarOutOfTheImage) {
+  cv::RNG random(7);
+  const auto somewhere = [&] {
+    return Eigen::Vector2f(random.uniform(0.0F, 639.0F), random.uniform(0.0F, 399.0F));
+  };
+  for (const double value : {kNan, kInfinity, 1e30, 1e300, 1e6, -1e30, 200.0}) {
+    const LensBend lens(std::make_shared<TornModel>(value), kWidth, kHeight);
+    for (int i = 0; i < 2000; ++i) {
+      const LineSegment chord{somewhere(), somewhere()};
+      const LineBend bend = lens.between(chord);
+      for (float fraction = 0.0F; fraction <= 1.0F; fraction += 1.0F / 64.0F) {
+        ASSERT_LT(std::abs(bend.offset(fraction)), 1e5F) << value << ", line " << i;
+      }
     }
   }
 }
