@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 
 #include "tet_line_tracker/camera/camera_model.h"
@@ -18,5 +19,10 @@ std::shared_ptr<const CameraModel> makePinholeModel(const CameraCalibration& cal
 std::shared_ptr<const CameraModel> makeEquidistantModel(const CameraCalibration& calibration);
 /// "mei" (xi k1 k2 p1 p2), the unified model of Mei and Rives, also called omnidirectional.
 std::shared_ptr<const CameraModel> makeMeiModel(const CameraCalibration& calibration);
+
+/// Mean of both focal lengths [px].
+inline double meanFocal(const CameraCalibration& calibration) {
+  return 0.5 * (calibration.fx + std::abs(calibration.fy));
+}
 
 }  // namespace tet_line_tracker

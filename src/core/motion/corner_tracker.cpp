@@ -60,8 +60,8 @@ bool CornerTracker::followCorner(const ImagePyramid& pyramid, Corner& corner) co
   const int top = std::min(pyramid.levels(), kPyramidLevels) - 1;
   int finest = kPyramidLevels;  // level that showed a corner
   float mismatch = 0.0F;        // there, beyond what may be
-  for (int j = corner.sure ? std::min(top, kSureLevel) : top; j >= Corner::kFinest; --j) {
-    const Patch& patch = corner.patches[static_cast<std::size_t>(j - Corner::kFinest)];
+  for (int j = corner.sure ? std::min(top, kSureLevel) : top; j >= 0; --j) {
+    const Patch& patch = corner.patches[static_cast<std::size_t>(j)];
     const kernels::PatchTemplate& reference = patch.reference;
     const SymmetricMatrix hessian{reference.xx, reference.xy, reference.yy};
     // A level that shows no corner leaves its place to the next.
@@ -71,7 +71,7 @@ bool CornerTracker::followCorner(const ImagePyramid& pyramid, Corner& corner) co
     const Eigen::Vector2f start = scale * pixel;
     Eigen::Vector2f centre = start;
     const ImageBounds bounds = ImageBounds::ofImage(pyramid.level(j).cols, pyramid.level(j).rows);
-    const float last_step = j == Corner::kFinest ? kFineStep : kCoarseStep;
+    const float last_step = j == 0 ? kFineStep : kCoarseStep;
     finest = j;
     for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
       if (!bounds.contains(centre)) return false;
@@ -98,8 +98,8 @@ void CornerTracker::extractTemplates(const ImagePyramid& pyramid) {
   const int levels = std::min(pyramid.levels(), kPyramidLevels);
   for (Corner& corner : corners_) {
     if (!corner.used) continue;
-    for (int j = Corner::kFinest; j < levels; ++j) {
-      Patch& patch = corner.patches[static_cast<std::size_t>(j - Corner::kFinest)];
+    for (int j = 0; j < levels; ++j) {
+      Patch& patch = corner.patches[static_cast<std::size_t>(j)];
       const Eigen::Vector2f centre = ImagePyramid::scale(j) * corner.pixel;
       kernels::active().makeTemplate(reader.patchWithRim(pyramid.level(j), centre), shape, true,
                                      &patch.reference);

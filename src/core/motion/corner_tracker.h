@@ -34,11 +34,9 @@ class CornerTracker {
    private:
     friend class CornerTracker;
     static constexpr int kSide = 7;
-    static constexpr int kFinest = 0;
-    static constexpr int kLevels = kPyramidLevels - kFinest;
     static constexpr kernels::PatchShape kShape = kernels::PatchShape::ofSide(kSide);
-    std::array<Patch, kLevels> patches;
-    std::array<float, static_cast<std::size_t>(kLevels * 3 * kShape.floats())> values;
+    std::array<Patch, kPyramidLevels> patches;
+    std::array<float, static_cast<std::size_t>(kPyramidLevels * 3 * kShape.floats())> values;
   };
 
   CornerTracker();

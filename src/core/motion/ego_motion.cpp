@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "camera/camera_models.h"
 #include "geometry/so3.h"
 
 namespace tet_line_tracker {
@@ -30,7 +31,7 @@ constexpr std::array<double, 3> kPitches = {0.0, 0.2, -0.2};
 void EgoMotionTracker::setCamera(std::shared_ptr<const CameraModel> camera) {
   if (camera == camera_) return;
   camera_ = std::move(camera);
-  if (camera_) focal_ = 0.5 * (camera_->calibration().fx + std::abs(camera_->calibration().fy));
+  if (camera_) focal_ = meanFocal(camera_->calibration());
   reset();
 }
 
@@ -51,8 +52,7 @@ void EgoMotionTracker::rememberPlaces() {
 }
 
 void EgoMotionTracker::expect(const Eigen::Matrix3d& rotation, double interval_s) {
-  const double ratio = last_interval_s_ > 0.0 ? interval_s / last_interval_s_ : 1.0;
-  const Eigen::Vector3d step = ratio * (rotation * translation_);
+  const Eigen::Vector3d step = steadyRatio(interval_s) * (rotation * translation_);
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     CornerTracker::Corner& corner = corners_.corner(i);
     const Known& known = known_[i];
@@ -86,19 +86,28 @@ void EgoMotionTracker::collectPairs(const Eigen::Matrix3d& rotation) {
   }
 }
 
+double EgoMotionTracker::steadyRatio(double interval_s) const {
+  return last_interval_s_ > 0.0 ? interval_s / last_interval_s_ : 1.0;
+}
+
+Eigen::Matrix3d EgoMotionTracker::steadyRotation(double interval_s) const {
+  return so3Exp(steadyRatio(interval_s) * rotation_).toRotationMatrix();
+}
+
 EgoMotion EgoMotionTracker::follow(const ImagePyramid& pyramid, double interval_s,
-                                   const Eigen::Matrix3d& rotation, const std::optional<Turn>& measured) {
+                                   const Eigen::Matrix3d& rotation, const std::optional<Turn>& measured,
+                                   std::size_t min_inliers) {
   expect(rotation, interval_s);
   corners_.follow(pyramid);
   collectPairs(rotation);
+  if (pairs_.size() < min_inliers) return {};
   EpipolarEstimator::Prior prior;
   prior.rotation_sigma = kImageSigma;
   if (measured) {
     prior.rotation = so3Log(measured->rotation * rotation.transpose());
     prior.rotation_sigma = kGyroSigma + measured->deviation;
   }
-  const double elapsed = last_interval_s_ > 0.0 ? interval_s / last_interval_s_ : 1.0;
-  prior.steady = so3Log(so3Exp(elapsed * rotation_).toRotationMatrix() * rotation.transpose());
+  prior.steady = so3Log(steadyRotation(interval_s) * rotation.transpose());
   prior.translation = rotation * translation_;
   EgoMotion motion = estimator_.estimate(pairs_, focal_, prior);
   if (measured && !measured->trusted && !motion.rotates) {
@@ -106,7 +115,8 @@ EgoMotion EgoMotionTracker::follow(const ImagePyramid& pyramid, double interval_
     prior.rotation_sigma = kImageSigma;
     motion = estimator_.estimate(pairs_, focal_, prior);
   }
-  return motion;
+  motion.rotates = motion.rotates && motion.inliers >= min_inliers;
+  return motion.rotates ? motion : EgoMotion();
 }
 
 double EgoMotionTracker::stepRatio(const EgoMotion& motion, double fallback) {
@@ -151,12 +161,8 @@ EgoMotion EgoMotionTracker::followFromElsewhere(const ImagePyramid& pyramid, dou
   EgoMotion motion;
   const auto tryFrom = [&](const Eigen::Matrix3d& rotation, std::size_t min_inliers) {
     if (motion.rotates || so3Log(rotation * predicted.transpose()).norm() < kOtherRotation) return;
-    motion = follow(pyramid, interval_s, rotation, measured);
-    motion.rotates = motion.rotates && motion.inliers >= min_inliers;
-    if (!motion.rotates) {
-      motion = EgoMotion();
-      return;
-    }
+    motion = follow(pyramid, interval_s, rotation, measured, min_inliers);
+    if (!motion.rotates) return;
     prediction.rotation = rotation;
     prediction.source = measured ? MotionPrediction::Source::kImu : MotionPrediction::Source::kImage;
   };
@@ -164,8 +170,7 @@ EgoMotion EgoMotionTracker::followFromElsewhere(const ImagePyramid& pyramid, dou
     tryFrom(measured->rotation, 0);
     return motion;
   }
-  const double elapsed = last_interval_s_ > 0.0 ? interval_s / last_interval_s_ : 1.0;
-  tryFrom(so3Exp(elapsed * rotation_).toRotationMatrix(), 0);
+  tryFrom(steadyRotation(interval_s), 0);
   for (const double yaw : kYaws) {
     for (const double pitch : kPitches) tryFrom(so3Exp({pitch, yaw, 0.0}).toRotationMatrix(), kManyInliers);
   }
@@ -176,13 +181,12 @@ void EgoMotionTracker::update(const ImagePyramid& pyramid, double interval_s,
                               const std::optional<Turn>& measured, MotionPrediction& prediction) {
   if (!camera_) return;
   rememberPlaces();
-  EgoMotion motion = follow(pyramid, interval_s, prediction.rotation, measured);
+  EgoMotion motion = follow(pyramid, interval_s, prediction.rotation, measured, 0);
   if (!motion.rotates) motion = followFromElsewhere(pyramid, interval_s, measured, prediction);
   if (motion.known()) {
     prediction.rotation = so3Exp(motion.rotation).toRotationMatrix() * prediction.rotation;
     for (PointPair& pair : pairs_) pair.before += motion.rotation.cross(pair.before);
-    const double elapsed = last_interval_s_ > 0.0 ? interval_s / last_interval_s_ : 1.0;
-    prediction.step_ratio = translation_.isZero() ? 0.0 : stepRatio(motion, elapsed);
+    prediction.step_ratio = translation_.isZero() ? 0.0 : stepRatio(motion, steadyRatio(interval_s));
     prediction.translation = motion.translation;
     prediction.inliers = motion.inliers;
     learnDepths(motion, prediction.step_ratio);

@@ -52,9 +52,13 @@ class EgoMotionTracker {
   };
 
   void rememberPlaces();
-  /// Follows the corners from where `rotation` puts them, and takes the motion from them.
+  /// How much longer this step is than the last, and how the camera turned, if it went on as before.
+  double steadyRatio(double interval_s) const;
+  Eigen::Matrix3d steadyRotation(double interval_s) const;
+  /// Follows the corners from where `rotation` puts them, and takes the motion from them; not known when
+  /// fewer than `min_inliers` agree.
   EgoMotion follow(const ImagePyramid& pyramid, double interval_s, const Eigen::Matrix3d& rotation,
-                   const std::optional<Turn>& measured);
+                   const std::optional<Turn>& measured, std::size_t min_inliers);
   /// Where the prediction led the corners astray: from the gyroscope's rotation, or without it from going on
   /// as before and from a few turns. Corrects the prediction when it finds them again.
   EgoMotion followFromElsewhere(const ImagePyramid& pyramid, double interval_s,

@@ -22,7 +22,12 @@ constexpr double kSureRotation = 0.005;  ///< with more, several directions may 
 constexpr double kMinSine = 0.05;  ///< towards the epipole the distance from the epipolar plane says little
 constexpr double kMinInliers = 0.5;
 
-/// Distance of a point from its epipolar plane [px].
+/// The ray of the image before, turned by a small correction more than was predicted.
+Eigen::Vector3d turned(const PointPair& pair, const Eigen::Vector3d& rotation) {
+  return pair.before + rotation.cross(pair.before);
+}
+
+/// What turns translation . (before x now) into the distance from the epipolar line [px].
 double scaleOf(const Eigen::Vector3d& before, const Eigen::Vector3d& translation, double per_px) {
   const double sine = before.cross(translation).norm() / before.norm();
   return per_px / std::max(kMinSine, sine);
@@ -45,7 +50,7 @@ double EpipolarEstimator::behindCost(const std::vector<PointPair>& pairs, const 
   double ahead = 0.0;
   double behind = 0.0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const Eigen::Vector3d before = pairs[i].before + candidate.rotation.cross(pairs[i].before);
+    const Eigen::Vector3d before = turned(pairs[i], candidate.rotation);
     const Eigen::Vector3d cross = before.cross(pairs[i].now);
     const Eigen::Vector3d across = pairs[i].now.cross(candidate.translation);
     const double norm = across.norm();
@@ -77,7 +82,7 @@ EpipolarEstimator::Candidate EpipolarEstimator::fit(const std::vector<PointPair>
     const Eigen::Vector3d from_prior = candidate.rotation - known.rotation;
     double cost = prior * from_prior.squaredNorm();
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const Eigen::Vector3d before = pairs[i].before + candidate.rotation.cross(pairs[i].before);
+      const Eigen::Vector3d before = turned(pairs[i], candidate.rotation);
       const Eigen::Vector3d cross = before.cross(pairs[i].now);
       const double scale = scaleOf(before, best, constraints_[i].per_px);
       const double distance = scale * best.dot(cross);
@@ -113,7 +118,7 @@ double EpipolarEstimator::parallaxOf(const std::vector<PointPair>& pairs, double
                                      const Eigen::Vector3d& rotation) {
   parallax_.clear();
   for (const PointPair& pair : pairs) {
-    const Eigen::Vector3d before = pair.before + rotation.cross(pair.before);
+    const Eigen::Vector3d before = turned(pair, rotation);
     parallax_.push_back(focal * before.cross(pair.now).norm() / (before.norm() * pair.now.norm()));
   }
   const auto middle = parallax_.begin() + static_cast<std::ptrdiff_t>(parallax_.size() / 2);
@@ -127,7 +132,7 @@ EgoMotion EpipolarEstimator::estimate(std::vector<PointPair>& pairs, double foca
   if (pairs.size() < kMinPairs) return motion;
   constraints_.clear();
   for (const PointPair& pair : pairs) {
-    const Eigen::Vector3d before = pair.before + prior.rotation.cross(pair.before);
+    const Eigen::Vector3d before = turned(pair, prior.rotation);
     constraints_.push_back({before.cross(pair.now), focal / (before.norm() * pair.now.norm()), before});
   }
   if (parallaxOf(pairs, focal, prior.rotation) < kMinParallax) {
@@ -175,7 +180,7 @@ EgoMotion EpipolarEstimator::estimate(std::vector<PointPair>& pairs, double foca
   double sign = 0.0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     PointPair& pair = pairs[i];
-    const Eigen::Vector3d before = pair.before + rotation.cross(pair.before);
+    const Eigen::Vector3d before = turned(pair, rotation);
     const Eigen::Vector3d cross = before.cross(pair.now);
     pair.inlier = std::abs(best.dot(cross)) * scaleOf(before, best, constraints_[i].per_px) < kInlierDistance;
     const Eigen::Vector3d across = pair.now.cross(best);

@@ -94,9 +94,7 @@ class MotionPrior::Implementation {
   std::optional<DepthGuess> depthNear(const Eigen::Vector2f& pixel) const {
     return ego_motion_.depthNear(pixel);
   }
-  double focal() const {
-    return lens_ ? 0.5 * (lens_->calibration().fx + std::abs(lens_->calibration().fy)) : 1.0;
-  }
+  double focal() const { return lens_ ? meanFocal(lens_->calibration()) : 1.0; }
 
  private:
   std::int64_t imuStamp(std::int64_t image_stamp_ns) const {
