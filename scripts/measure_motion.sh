@@ -74,6 +74,16 @@ for sequence in "${parts[@]}"; do
   judgeWithout prior "$sequence" --set prior=none
 done
 
+# A car with and without an odometry of its wheels.
+for seed in $seeds; do
+  for rate in 10 5 3.3; do
+    sequence=street-odometry-$rate-$seed
+    # shellcheck disable=SC2086
+    simulate "$results/$sequence.bag" "$seed" ${flights[street]} --rate "$rate" --odometry --seconds "$seconds" >/dev/null
+    for prior in image odometry auto; do judgeWithout "$prior" "$sequence" --set prior=$prior; done
+  done
+done
+
 # The seeds are one word each.
 # shellcheck disable=SC2086
 python3 scripts/motion_tables.py "$results" $seeds | tee "$results/tables.md"

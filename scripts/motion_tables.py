@@ -75,6 +75,19 @@ def parts_table(folder, seeds):
     print()
 
 
+def odometry_table(folder, seeds):
+    priors = ['image', 'odometry', 'auto']
+    print('Street by what predicts the motion (auto: the IMU): under 2 px [%] / under 1 px [%] / images per track / survival [%]\n')
+    print('| | {} |\n|{}'.format(' | '.join('`prior: {}`'.format(prior) for prior in priors), '---|' * (len(priors) + 1)))
+    for rate in ('10', '5', '3.3'):
+        cells = []
+        for prior in priors:
+            rows = [measures(folder, 'street-odometry-{}-{}'.format(rate, seed), 'part-' + prior) for seed in seeds]
+            cells.append(simulated_cell([row for row in rows if row is not None]))
+        print('| street {} Hz | {} |'.format(rate, ' | '.join(cells)))
+    print()
+
+
 def judges_cell(rows):
     """Exact judge and three-view judge of the same triples."""
     if not rows:
@@ -109,6 +122,7 @@ def main():
           'images per track', [(name, name) for name in RECORDED],
           lambda sequence, tracker: recorded_cell(measures(folder, sequence, tracker)))
     parts_table(folder, seeds)
+    odometry_table(folder, seeds)
     table('Two judges of the same triples: both line pairs within 2 px of the exact truth [%] / right by three views [%] / left out '
           'of all triples [%]', flights, of_flights(judges_cell))
 

@@ -12,7 +12,7 @@ namespace {
 /// here is not counted: the short queue is the worker's.
 constexpr std::uint32_t kTransportQueue = 1000;
 constexpr std::uint32_t kCameraInfoQueue = 10;
-constexpr std::uint32_t kImuQueue = 2000;
+constexpr std::uint32_t kMotionQueue = 2000;
 
 }  // namespace
 
@@ -42,7 +42,8 @@ void LineTrackerNodelet::loadParameters() {
   tracker_ = std::make_unique<LineTracker>(tracker_parameters_);
   mask_ = readMask(parameters_.mask);
   tracker_->setMask(mask_);
-  imu_extrinsic_.set(imuRotation(parameters_.imu_rotation));
+  imu_.extrinsic.set(imuRotation(parameters_.imu_rotation));
+  odometry_.extrinsic.set(odometryExtrinsic(parameters_.odometry_extrinsic));
   queue_ = std::make_unique<NewestQueue<sensor_msgs::ImageConstPtr>>(parameters_.queue_size);
 }
 
@@ -62,11 +63,15 @@ void LineTrackerNodelet::subscribe() {
   reset_server_ = private_node.advertiseService("reset", &LineTrackerNodelet::onReset, this);
   camera_info_subscriber_ =
       node.subscribe("camera_info", kCameraInfoQueue, &LineTrackerNodelet::onCameraInfo, this);
-  // Also when no parameter asks for the IMU: players of bags wait until every topic is taken.
+  // Also when no parameter asks for them: players of bags wait until every topic is taken.
   tf_listener_ = std::make_unique<tf2_ros::TransformListener>(tf_buffer_, node);
-  imu_subscriber_ =
-      node.subscribe("imu", kImuQueue, &LineTrackerNodelet::onImu, this, ros::TransportHints().tcpNoDelay());
-  const image_transport::TransportHints hints("raw", ros::TransportHints().tcpNoDelay(), private_node);
+  const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
+  imu_subscriber_ = node.subscribe("imu", kMotionQueue, &LineTrackerNodelet::onImu, this, no_delay);
+  odometry_subscriber_ =
+      node.subscribe("odometry", kMotionQueue, &LineTrackerNodelet::onOdometry, this, no_delay);
+  imu_.topic = imu_subscriber_.getTopic();
+  odometry_.topic = odometry_subscriber_.getTopic();
+  const image_transport::TransportHints hints("raw", no_delay, private_node);
   image_subscriber_ = image_transport::ImageTransport(node).subscribe(
       "image", kTransportQueue, &LineTrackerNodelet::onImage, this, hints);
   // The wall clock: simulated time stands still exactly when there is something to warn of.
@@ -80,7 +85,8 @@ void LineTrackerNodelet::subscribe() {
 void LineTrackerNodelet::onImage(const sensor_msgs::ImageConstPtr& image) {
   diagnostics_.addReceived();
   queue_->push(image);
-  imu_.wake();
+  imu_.input.wake();
+  odometry_.input.wake();
 }
 
 void LineTrackerNodelet::onCameraInfo(const sensor_msgs::CameraInfoConstPtr& info) {
@@ -90,7 +96,11 @@ void LineTrackerNodelet::onCameraInfo(const sensor_msgs::CameraInfoConstPtr& inf
 }
 
 void LineTrackerNodelet::onImu(const sensor_msgs::ImuConstPtr& message) {
-  if (tracker_->usesImu()) imu_.add(*message);
+  if (tracker_->usesImu()) imu_.input.add(*message);
+}
+
+void LineTrackerNodelet::onOdometry(const nav_msgs::OdometryConstPtr& message) {
+  if (tracker_->usesOdometry()) odometry_.input.add(*message);
 }
 
 bool LineTrackerNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
@@ -118,19 +128,21 @@ void LineTrackerNodelet::reportDiagnostics(diagnostic_updater::DiagnosticStatusW
   setup.detector = tracker_->detectorName();
   setup.calibration = calibration_.state();
   setup.calibrated = calibrated_;
-  setup.imu = imuState();
-  setup.imu_in_step = !imu_.outOfStep();
+  setup.imu = stateOf(imu_, tracker_->usesImu());
+  setup.odometry = stateOf(odometry_, tracker_->usesOdometry());
+  setup.imu_in_step = !imu_.input.outOfStep();
+  setup.odometry_in_step = !odometry_.input.outOfStep();
   diagnostics_.report(setup, status);
 }
 
-std::string LineTrackerNodelet::imuState() const {
-  std::string topic = imu_subscriber_.getTopic();
-  if (!tracker_->usesImu()) return "not asked for";
-  const std::optional<std::string> frame = imu_.frame();
-  if (!frame) return "no message on " + topic;
-  if (const auto lag = imu_.outOfStep()) return topic + ", out of step: " + *lag;
-  if (imu_extrinsic_.rotation()) return topic;
-  return topic + ", no transform from its frame " + *frame + " to the camera's";
+template <class Sample>
+std::string LineTrackerNodelet::stateOf(const MotionSensor<Sample>& sensor, bool used) const {
+  if (!used) return "not asked for";
+  const std::optional<std::string> frame = sensor.input.frame();
+  if (!frame) return "no message on " + sensor.topic;
+  if (const auto lag = sensor.input.outOfStep()) return sensor.topic + ", out of step: " + *lag;
+  if (sensor.extrinsic.pose()) return sensor.topic;
+  return sensor.topic + ", no transform from its frame " + *frame + " to the camera's";
 }
 
 void LineTrackerNodelet::work() {
@@ -154,13 +166,28 @@ void LineTrackerNodelet::track(const sensor_msgs::Image& image) {
   }
   calibrated_ = model.camera != nullptr;
   checkMask(gray.cols, gray.rows);
-  if (tracker_->usesImu() && stamp_ns != 0) awaitImu(image.header);
+  const std::string& frame_id = image.header.frame_id;
+  if (stamp_ns != 0) {
+    const auto isThere = [](const auto& sensor, const ros::Subscriber& subscriber) {
+      return sensor.input.frame() || subscriber.getNumPublishers() > 0;
+    };
+    if (tracker_->usesImu() && isThere(imu_, imu_subscriber_)) {
+      await(imu_, tracker_->imuStamp(stamp_ns), frame_id);
+    }
+    if (tracker_->usesOdometry() && isThere(odometry_, odometry_subscriber_)) {
+      await(odometry_, stamp_ns, frame_id);
+    }
+  }
 
   const std::lock_guard<std::mutex> lock(tracker_mutex_);
   tracker_->setCamera(model.camera);
-  if (const auto rotation = imu_extrinsic_.rotation()) {
-    tracker_->setImuRotation(*rotation);
-    imu_.feed(tracker_->imuStamp(stamp_ns), *tracker_);
+  if (const auto pose = imu_.extrinsic.pose()) {
+    tracker_->setImuRotation(pose->linear());
+    imu_.input.feed(tracker_->imuStamp(stamp_ns), *tracker_);
+  }
+  if (const auto pose = odometry_.extrinsic.pose()) {
+    tracker_->setOdometryExtrinsic(*pose);
+    odometry_.input.feed(stamp_ns, *tracker_);
   }
   const FrameResult result = tracker_->process(gray, stamp_ns);
   if (isDropped(result.verdict)) {
@@ -174,37 +201,37 @@ void LineTrackerNodelet::track(const sensor_msgs::Image& image) {
   epoch_ = frame.epoch;
   diagnostics_.addTracked(frame, frame.statistics.total_ms);
   publisher_->setCamera(model.camera);
-  if (publisher_->publish(frame, image.header.frame_id, gray, replaced)) diagnostics_.addPublished();
+  if (publisher_->publish(frame, frame_id, gray, replaced)) diagnostics_.addPublished();
 }
 
 /// Without tracker_mutex_, so that a reset need not wait with the image. An image that would cost another one
 /// its place in the queue does not wait.
-void LineTrackerNodelet::awaitImu(const std_msgs::Header& image) {
-  const std::int64_t stamp_ns = tracker_->imuStamp(static_cast<std::int64_t>(image.stamp.toNSec()));
-  if (!imu_.frame() && imu_subscriber_.getNumPublishers() == 0) return;
+template <class Sample>
+void LineTrackerNodelet::await(MotionSensor<Sample>& sensor, std::int64_t stamp_ns,
+                               const std::string& camera_frame) {
   const auto crowded = [this] { return queue_->isFull(); };
-  if (imu_extrinsic_.isHopeful() && !imu_.waitFor(stamp_ns, parameters_.imu_wait, crowded)) {
-    if (imu_extrinsic_.rotation()) diagnostics_.addWithoutImu();
+  if (sensor.extrinsic.isHopeful() && !sensor.input.waitFor(stamp_ns, parameters_.imu_wait, crowded)) {
+    if (sensor.extrinsic.pose()) diagnostics_.addWithoutSamples();
   }
-  warnOfImu();
-  const std::optional<std::string> frame = imu_.frame();
+  warnOfLag(sensor);
+  const std::optional<std::string> frame = sensor.input.frame();
   if (!frame) return;
   if (const auto warning =
-          imu_extrinsic_.find(tf_buffer_, *frame, image.frame_id, parameters_.imu_wait, crowded)) {
-    NODELET_WARN("%s: %s", imu_subscriber_.getTopic().c_str(), warning->c_str());
+          sensor.extrinsic.find(tf_buffer_, *frame, camera_frame, parameters_.imu_wait, crowded)) {
+    NODELET_WARN("%s: %s", sensor.topic.c_str(), warning->c_str());
   }
 }
 
-void LineTrackerNodelet::warnOfImu() {
-  const std::optional<std::string> lag = imu_.outOfStep();
-  const std::string topic = imu_subscriber_.getTopic();
-  if (lag && !imu_warned_ && imu_warning_.isDue()) {
-    imu_warned_ = true;
+template <class Sample>
+void LineTrackerNodelet::warnOfLag(MotionSensor<Sample>& sensor) {
+  const std::optional<std::string> lag = sensor.input.outOfStep();
+  if (lag && !sensor.warned && sensor.warning.isDue()) {
+    sensor.warned = true;
     NODELET_WARN("%s is out of step: %s; images do not wait for it, their motion is predicted without",
-                 topic.c_str(), lag->c_str());
-  } else if (!lag && imu_warned_) {
-    imu_warned_ = false;
-    NODELET_INFO("%s is in step again", topic.c_str());
+                 sensor.topic.c_str(), lag->c_str());
+  } else if (!lag && sensor.warned) {
+    sensor.warned = false;
+    NODELET_INFO("%s is in step again", sensor.topic.c_str());
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <image_transport/image_transport.h>
+#include <nav_msgs/Odometry.h>
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
 #include <sensor_msgs/CameraInfo.h>
@@ -19,17 +20,30 @@
 #include <tf2_ros/transform_listener.h>
 
 #include "calibration_input.h"
-#include "imu_extrinsic.h"
-#include "imu_input.h"
 #include "line_publisher.h"
 #include "newest_queue.h"
 #include "node_parameters.h"
+#include "sensor_extrinsic.h"
+#include "sensor_input.h"
 #include "silence_warning.h"
 #include "stream_diagnostics.h"
 #include "tet_line_tracker/tracking/line_tracker.h"
 #include "throttled_warning.h"
 
 namespace tet_line_tracker {
+
+/// A sensor that tells how the camera moves, and what is known of it.
+template <class Sample>
+struct MotionSensor {
+  MotionSensor(const std::string& name, const std::string& parameter) : extrinsic(name, parameter) {}
+
+  SensorInput<Sample> input;
+  SensorExtrinsic extrinsic;
+  std::string topic;
+  // Only the worker uses these.
+  bool warned{false};  ///< that it is out of step
+  ThrottledWarning warning{std::chrono::seconds(60)};
+};
 
 /// The front end as a nodelet. The callback of an image only puts it into a short queue; one worker thread
 /// takes the images in their order, tracks and publishes. Nothing in a message depends on the wall clock, and
@@ -48,16 +62,21 @@ class LineTrackerNodelet : public nodelet::Nodelet {
   void onImage(const sensor_msgs::ImageConstPtr& image);
   void onCameraInfo(const sensor_msgs::CameraInfoConstPtr& info);
   void onImu(const sensor_msgs::ImuConstPtr& message);
+  void onOdometry(const nav_msgs::OdometryConstPtr& message);
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   void onTimer(const ros::WallTimerEvent& event);
-  std::string imuState() const;
+  template <class Sample>
+  std::string stateOf(const MotionSensor<Sample>& sensor, bool used) const;
   void reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   // In the worker thread.
   void work();
   void track(const sensor_msgs::Image& image);
-  void awaitImu(const std_msgs::Header& image);
-  void warnOfImu();
+  /// Waits for the messages of a sensor up to `stamp_ns`, and for its pose.
+  template <class Sample>
+  void await(MotionSensor<Sample>& sensor, std::int64_t stamp_ns, const std::string& camera_frame);
+  template <class Sample>
+  void warnOfLag(MotionSensor<Sample>& sensor);
   void checkMask(int width, int height);
   void drop(DropReason reason, const std::string& sentence);
 
@@ -68,18 +87,16 @@ class LineTrackerNodelet : public nodelet::Nodelet {
   std::unique_ptr<LineTracker> tracker_;
   std::unique_ptr<NewestQueue<sensor_msgs::ImageConstPtr>> queue_;
   CalibrationInput calibration_;
-  ImuInput imu_;
-  ImuExtrinsic imu_extrinsic_;
+  MotionSensor<AngularVelocity> imu_{"IMU", "imu_rotation"};
+  MotionSensor<BodyPose> odometry_{"odometry", "odometry_extrinsic"};
   tf2::BufferCore tf_buffer_;
   StreamDiagnostics diagnostics_;
   std::atomic<bool> calibrated_{false};
 
   // Only the worker uses these.
   cv::Mat mask_;
-  bool imu_warned_{false};  ///< that it is out of step
   std::uint32_t epoch_{0};  ///< 0: no image yet
   ThrottledWarning mask_warning_{std::chrono::seconds(60)};
-  ThrottledWarning imu_warning_{std::chrono::seconds(60)};
   std::array<ThrottledWarning, static_cast<std::size_t>(DropReason::kCount)> drop_warnings_;
 
   std::unique_ptr<LinePublisher> publisher_;
@@ -91,7 +108,7 @@ class LineTrackerNodelet : public nodelet::Nodelet {
   ros::ServiceServer reset_server_;
   ros::WallTimer timer_;
   std::unique_ptr<tf2_ros::TransformListener> tf_listener_;
-  ros::Subscriber imu_subscriber_;
+  ros::Subscriber imu_subscriber_, odometry_subscriber_;
   ros::Subscriber camera_info_subscriber_;
   image_transport::Subscriber image_subscriber_;
 };

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "imu_extrinsic.h"
 #include "mask_file.h"
+#include "sensor_extrinsic.h"
 
 namespace tet_line_tracker {
 namespace {
@@ -87,11 +87,13 @@ ParameterTable tableOf(NodeParameters& p) {
   table.add("debug_image_ids", p.debug_image_ids,
             "Ids on `~debug_image`, where there is room for them, oldest tracks first");
   table.add("imu_wait", p.imu_wait, 0.0, 10.0, "s",
-            "An image waits at most so long for the IMU message after it; then its motion is predicted from "
-            "the images");
+            "An image waits at most so long for the message of IMU or odometry after it; then its motion is "
+            "predicted from the images");
   table.add(
       "imu_rotation", p.imu_rotation, std::vector<std::string>{},
       "Quaternion `qx qy qz qw` that takes directions in the IMU's frame to the camera's; empty: from tf");
+  table.add("odometry_extrinsic", p.odometry_extrinsic, std::vector<std::string>{},
+            "Pose `x y z qx qy qz qw` of the odometry's child frame in the camera's [m]; empty: from tf");
   table.add("mask", p.mask, std::vector<std::string>{},
             "Path of an image of the camera's size, white where lines are tracked; empty: everywhere");
   return table;
@@ -118,6 +120,7 @@ std::vector<std::string> check(const NodeParameters& parameters) {
     }
   };
   expect([&] { imuRotation(parameters.imu_rotation); });
+  expect([&] { odometryExtrinsic(parameters.odometry_extrinsic); });
   expect([&] { readMask(parameters.mask); });
   return broken;
 }

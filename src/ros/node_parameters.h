@@ -18,10 +18,12 @@ struct NodeParameters {
   int queue_size{2};                 ///< images that wait for their turn at most, 1..1000
   bool marker_ids{false};            ///< ids beside the lines of ~markers
   bool debug_image_ids{true};        ///< ids on ~debug_image, where there is room
-  double imu_wait{0.05};             ///< an image waits so long for its IMU messages, 0..10 [s]
+  double imu_wait{0.05};             ///< an image waits so long for messages of IMU or odometry, 0..10 [s]
   std::string imu_rotation;  ///< "qx qy qz qw": takes directions in the IMU's frame to the camera's; empty:
                              ///< ask tf
-  std::string mask;          ///< path of an image: white where lines are tracked; empty: everywhere
+  std::string odometry_extrinsic;  ///< "x y z qx qy qz qw": pose of the odometry's child frame in the
+                                   ///< camera's [m]; empty: ask tf
+  std::string mask;                ///< path of an image: white where lines are tracked; empty: everywhere
 };
 
 /// Entries bound to the fields of `parameters`, which must outlive the table.

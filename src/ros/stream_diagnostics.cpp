@@ -62,9 +62,9 @@ std::uint64_t StreamDiagnostics::addDropped(DropReason reason) {
   return ++dropped_[static_cast<std::size_t>(reason)];
 }
 
-void StreamDiagnostics::addWithoutImu() {
+void StreamDiagnostics::addWithoutSamples() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  ++without_imu_;
+  ++without_samples_;
 }
 
 void StreamDiagnostics::setDroppedInQueue(std::uint64_t total) {
@@ -89,6 +89,7 @@ void StreamDiagnostics::report(const Setup& setup, diagnostic_updater::Diagnosti
   status.add("image size", std::to_string(width_) + "x" + std::to_string(height_));
   status.add("calibration", setup.calibration);
   status.add("imu", setup.imu);
+  status.add("odometry", setup.odometry);
   status.addf("imu time offset [s]", "%.4f", imu_time_offset_s_);
   status.add("detector", setup.detector);
   status.add("epoch", epoch_);
@@ -100,7 +101,7 @@ void StreamDiagnostics::report(const Setup& setup, diagnostic_updater::Diagnosti
   status.addf("time per image, max [ms]", "%.2f", interval.max_ms);
   status.add("images received", received_);
   status.add("images tracked", tracked_);
-  status.add("images without their imu messages", without_imu_);
+  status.add("images without their imu or odometry messages", without_samples_);
   status.add("messages published", published_);
   for (std::size_t i = 0; i < dropped_.size(); ++i) {
     status.add(std::string("images dropped: ") + kDropNames[i], dropped_[i]);
@@ -136,8 +137,9 @@ void StreamDiagnostics::summarize(const Setup& setup, const Interval& interval,
     status.summary(Status::WARN, "waiting for the first image");
   } else if (!setup.calibrated) {
     status.summaryf(Status::WARN, "%zu lines, not calibrated", lines_live_);
-  } else if (!setup.imu_in_step) {
-    status.summaryf(Status::WARN, "%zu lines, the imu is out of step", lines_live_);
+  } else if (!setup.imu_in_step || !setup.odometry_in_step) {
+    status.summaryf(Status::WARN, "%zu lines, the %s is out of step", lines_live_,
+                    setup.imu_in_step ? "odometry" : "imu");
   }
 }
 

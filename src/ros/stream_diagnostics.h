@@ -37,8 +37,8 @@ class StreamDiagnostics {
   void addPublished();
   /// Gives the number of images dropped for this reason so far, this one included.
   std::uint64_t addDropped(DropReason reason);
-  /// Counts an image that was tracked before the IMU message after it had come.
-  void addWithoutImu();
+  /// Counts an image that was tracked before the message of IMU or odometry after it had come.
+  void addWithoutSamples();
   /// Total of images dropped in the queue, which keeps its own count.
   void setDroppedInQueue(std::uint64_t total);
 
@@ -50,8 +50,10 @@ class StreamDiagnostics {
     std::string detector;
     std::string calibration;  ///< as CalibrationInput::state() says
     std::string imu;          ///< what is known of it
+    std::string odometry;     ///< what is known of it
     bool calibrated{false};   ///< the last image had normalised endpoints
     bool imu_in_step{true};   ///< its messages come early enough for the images
+    bool odometry_in_step{true};
   };
   /// Fills the status and begins the next interval of rates and times.
   void report(const Setup& setup, diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -74,7 +76,7 @@ class StreamDiagnostics {
   Interval interval_;
   Clock::time_point last_image_{Clock::now()};
   std::uint64_t received_{0}, tracked_{0}, published_{0};
-  std::uint64_t without_imu_{0};
+  std::uint64_t without_samples_{0};
   std::uint64_t lines_added_{0}, lines_cut_{0}, lines_left_out_{0};
   std::array<std::uint64_t, static_cast<std::size_t>(LossReason::kCount)> lines_lost_{};
   Drops dropped_{};

@@ -1,5 +1,6 @@
 #include "bag_topics.h"
 
+#include <nav_msgs/Odometry.h>
 #include <rosbag/query.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/CameraInfo.h>
@@ -66,6 +67,15 @@ std::string neighbour(std::string image_topic) {
   return image_topic.substr(0, image_topic.rfind('/') + 1) + "camera_info";
 }
 
+template <class Message>
+std::string chooseOnlyTopic(const rosbag::Bag& bag, const std::string& asked, const char* type) {
+  const Topics topics = topicsOf<Message>(bag);
+  if (!asked.empty()) requireTopic(bag, topics, asked, type);
+  std::string topic = asked.empty() && topics.size() == 1 ? *topics.begin() : asked;
+  checkDefinition<Message>(bag, topic);
+  return topic;
+}
+
 }  // namespace
 
 std::string chooseImageTopic(const rosbag::Bag& bag, const std::string& asked) {
@@ -114,10 +124,17 @@ std::string chooseCameraInfoTopic(const rosbag::Bag& bag, const std::string& ask
 }
 
 std::string chooseImuTopic(const rosbag::Bag& bag, const std::string& asked) {
-  const Topics topics = topicsOf<sensor_msgs::Imu>(bag);
-  if (!asked.empty()) requireTopic(bag, topics, asked, "sensor_msgs/Imu");
-  std::string topic = asked.empty() && topics.size() == 1 ? *topics.begin() : asked;
-  checkDefinition<sensor_msgs::Imu>(bag, topic);
+  return chooseOnlyTopic<sensor_msgs::Imu>(bag, asked, "sensor_msgs/Imu");
+}
+
+std::string chooseOdometryTopic(const rosbag::Bag& bag, const std::string& asked) {
+  const std::string topic = chooseOnlyTopic<nav_msgs::Odometry>(bag, asked, "nav_msgs/Odometry");
+  if (topic.empty()) {
+    const Topics topics = topicsOf<nav_msgs::Odometry>(bag);
+    throw std::runtime_error(
+        bag.getFileName() + " has " + std::to_string(topics.size()) + " topics of type nav_msgs/Odometry (" +
+        listOf(topics) + "), prior=odometry needs one" + (topics.empty() ? "" : ": name it with --odometry"));
+  }
   return topic;
 }
 

@@ -18,5 +18,8 @@ std::string chooseCameraInfoTopic(const rosbag::Bag& bag, const std::string& ask
                                   const std::string& image_topic);
 /// The IMU asked for, or the only one of the bag; empty when there is none or more than one.
 std::string chooseImuTopic(const rosbag::Bag& bag, const std::string& asked);
+/// The odometry asked for, or the only one of the bag. Throws std::runtime_error when there is none or more
+/// than one.
+std::string chooseOdometryTopic(const rosbag::Bag& bag, const std::string& asked);
 
 }  // namespace tet_line_tracker

@@ -2,6 +2,7 @@
 
 #include <cv_bridge/cv_bridge.h>
 #include <geometry_msgs/PoseStamped.h>
+#include <nav_msgs/Odometry.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/image_encodings.h>
@@ -36,14 +37,21 @@ geometry_msgs::TransformStamped transformMessage(const ros::Time& stamp, const c
 const ros::Duration SequenceBag::kCameraInfoLead(0.1);
 
 SequenceBag::SequenceBag(const std::string& path, std::optional<CameraCalibration> camera,
-                         std::optional<Eigen::Isometry3d> camera_from_imu, const ros::Time& first_stamp)
+                         const std::optional<Eigen::Isometry3d>& camera_from_imu,
+                         const ros::Time& first_stamp,
+                         const std::optional<Eigen::Isometry3d>& camera_from_body)
     : writer_(path), camera_(std::move(camera)) {
-  if (!camera_from_imu) return;
-  imu_from_camera_ = camera_from_imu->inverse();
   tf2_msgs::TFMessage message;
-  message.transforms.push_back(
-      transformMessage(first_stamp, sequence_bag::kImuFrame, sequence_bag::kCameraFrame, *imu_from_camera_));
-  writer_.write(sequence_bag::kStaticTfTopic, first_stamp, message);
+  if (camera_from_imu) {
+    imu_from_camera_ = camera_from_imu->inverse();
+    message.transforms.push_back(transformMessage(first_stamp, sequence_bag::kImuFrame,
+                                                  sequence_bag::kCameraFrame, *imu_from_camera_));
+  }
+  if (camera_from_body) {
+    message.transforms.push_back(transformMessage(first_stamp, sequence_bag::kCameraFrame,
+                                                  sequence_bag::kBodyFrame, *camera_from_body));
+  }
+  if (!message.transforms.empty()) writer_.write(sequence_bag::kStaticTfTopic, first_stamp, message);
 }
 
 void SequenceBag::writeImage(const ros::Time& stamp, const cv::Mat& image) {
@@ -87,6 +95,19 @@ void SequenceBag::writeImu(const ros::Time& stamp, const Eigen::Vector3d& angula
   message.linear_acceleration.y = acceleration.y();
   message.linear_acceleration.z = acceleration.z();
   writer_.write(sequence_bag::kImuTopic, stamp, message);
+}
+
+void SequenceBag::writeOdometry(const ros::Time& stamp, const Eigen::Isometry3d& odometry_from_body) {
+  const geometry_msgs::TransformStamped transform =
+      transformMessage(stamp, sequence_bag::kOdometryFrame, sequence_bag::kBodyFrame, odometry_from_body);
+  nav_msgs::Odometry message;
+  message.header = transform.header;
+  message.child_frame_id = transform.child_frame_id;
+  message.pose.pose.position.x = transform.transform.translation.x;
+  message.pose.pose.position.y = transform.transform.translation.y;
+  message.pose.pose.position.z = transform.transform.translation.z;
+  message.pose.pose.orientation = transform.transform.rotation;
+  writer_.write(sequence_bag::kOdometryTopic, stamp, message);
 }
 
 void SequenceBag::writePose(const ros::Time& stamp, const Eigen::Isometry3d& world_from_camera) {

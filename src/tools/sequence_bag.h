@@ -18,6 +18,7 @@ constexpr char kImageTopic[] = "/cam0/image_raw";
 constexpr char kCameraInfoTopic[] = "/cam0/camera_info";
 constexpr char kDepthTopic[] = "/depth/image_raw";
 constexpr char kImuTopic[] = "/imu0";
+constexpr char kOdometryTopic[] = "/odom";
 constexpr char kPoseTopic[] = "/ground_truth/pose";
 constexpr char kTfTopic[] = "/tf";
 constexpr char kStaticTfTopic[] = "/tf_static";
@@ -28,16 +29,19 @@ constexpr char kTrueEdgesTopic[] = "/ground_truth/edges";
 constexpr char kWorldFrame[] = "world";
 constexpr char kCameraFrame[] = "cam0";
 constexpr char kImuFrame[] = "imu0";
+constexpr char kOdometryFrame[] = "odom";
+constexpr char kBodyFrame[] = "base_link";
 }  // namespace sequence_bag
 
 /// Writes one camera's sequence with calibration, IMU and ground truth. Call in the order of stamps per
 /// topic.
 class SequenceBag {
  public:
-  /// `camera_from_imu`: pose of the IMU in the camera's optical frame; it goes to /tf_static before anything
-  /// else.
+  /// `camera_from_imu`, `camera_from_body`: poses of the IMU and of base_link in the camera's optical frame;
+  /// they go to /tf_static before anything else.
   SequenceBag(const std::string& path, std::optional<CameraCalibration> camera,
-              std::optional<Eigen::Isometry3d> camera_from_imu, const ros::Time& first_stamp);
+              const std::optional<Eigen::Isometry3d>& camera_from_imu, const ros::Time& first_stamp,
+              const std::optional<Eigen::Isometry3d>& camera_from_body = std::nullopt);
 
   /// Image (8UC1, 8UC3 as BGR, or 16UC1) with its camera_info just before it, under the same stamp. The first
   /// camera_info comes kCameraInfoLead before the first image as well, so that a live node knows it in time.
@@ -47,6 +51,8 @@ class SequenceBag {
   /// Angular velocity [rad/s] and specific force [m/s^2] in the IMU's frame.
   void writeImu(const ros::Time& stamp, const Eigen::Vector3d& angular_velocity,
                 const Eigen::Vector3d& acceleration);
+  /// Pose of base_link in odom [m].
+  void writeOdometry(const ros::Time& stamp, const Eigen::Isometry3d& odometry_from_body);
   /// Pose of the camera in `world`, as /ground_truth/pose and on /tf.
   void writePose(const ros::Time& stamp, const Eigen::Isometry3d& world_from_camera);
   /// Any further message.

@@ -7,6 +7,7 @@
 
 #include <std_msgs/String.h>
 
+#include "../simulation/odometry.h"
 #include "../simulation/simulation.h"
 #include "output_file.h"
 #include "program.h"
@@ -24,6 +25,7 @@ struct Arguments {
   SimulationOptions simulation;
   bool no_imu{false};
   bool noise_free_imu{false};
+  bool odometry{false};
   double imu_time_offset_s{0.0};
 };
 
@@ -49,6 +51,19 @@ int writeImuSamples(SequenceBag& bag, const Simulation& simulation, const Argume
   return count;
 }
 
+void writeOdometry(SequenceBag& bag, const Simulation& simulation, const Arguments& arguments) {
+  constexpr double kRate = 50.0;   // [Hz]
+  constexpr double kMargin = 0.1;  // before the first image and after the last [s]
+  SimulatedOdometry odometry(simulation.trajectory(), arguments.simulation.motion == "drive",
+                             arguments.simulation.seed, -kMargin);
+  const double end_s = simulation.timeOf(simulation.imageStamp(simulation.imageCount() - 1)) + kMargin;
+  const int count = static_cast<int>(std::ceil((end_s + kMargin) * kRate)) + 1;
+  for (int i = 0; i < count; ++i) {
+    const double time_s = i / kRate - kMargin;
+    bag.writeOdometry(toRosTime(simulation.stampAt(time_s)), odometry.advance(time_s));
+  }
+}
+
 int simulate(const Arguments& arguments) {
   checkOutput(arguments.out, {arguments.camera_info});
   const bool street = arguments.simulation.motion == "drive";
@@ -60,13 +75,14 @@ int simulate(const Arguments& arguments) {
   const ros::Time first_stamp = toRosTime(simulation.imageStamp(0));
   // The IMU begins a little earlier, and transforms come before all that needs them.
   const ros::Time transform_stamp = first_stamp - SequenceBag::kCameraInfoLead;
-  SequenceBag bag(arguments.out, camera,
-                  arguments.no_imu ? std::nullopt : std::make_optional(defaultCameraFromImu()),
-                  transform_stamp);
+  SequenceBag bag(
+      arguments.out, camera, arguments.no_imu ? std::nullopt : std::make_optional(defaultCameraFromImu()),
+      transform_stamp, arguments.odometry ? std::make_optional(defaultCameraFromBody(street)) : std::nullopt);
   std_msgs::String scene;
   scene.data = simulation.geometry().toText();
   bag.write(kSceneTopic, transform_stamp, scene);
   const int imu_samples = arguments.no_imu ? 0 : writeImuSamples(bag, simulation, arguments);
+  if (arguments.odometry) writeOdometry(bag, simulation, arguments);
 
   const int count = simulation.imageCount();
   ProgressBar progress(static_cast<std::size_t>(count));
@@ -112,6 +128,10 @@ int run(int argc, char** argv) {
   options.add_options()("no-imu", po::bool_switch(&arguments.no_imu), "write no IMU and no extrinsics");
   options.add_options()("noise-free-imu", po::bool_switch(&arguments.noise_free_imu),
                         "IMU without noise and bias");
+  options.add_options()(
+      "odometry", po::bool_switch(&arguments.odometry),
+      "also write /odom (nav_msgs/Odometry) with errors; for drive that of wheels: no pitch, "
+      "no roll, no slip");
   options.add_options()("imu-time-offset", po::value(&arguments.imu_time_offset_s)->value_name("S"),
                         "stamps of the IMU are later by this than those of images, -0.5 to 0.5 [s]");
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));

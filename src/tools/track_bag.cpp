@@ -18,14 +18,14 @@
 #include "../evaluation/baselines/baseline_tracker.h"
 #include "../evaluation/baselines/chord_camera.h"
 #include "../ros/image_conversion.h"
-#include "../ros/imu_extrinsic.h"
 #include "../ros/mask_file.h"
 #include "../ros/messages.h"
 #include "../ros/node_parameters.h"
+#include "../ros/sensor_extrinsic.h"
 #include "bag_calibration.h"
 #include "bag_image.h"
-#include "bag_imu.h"
 #include "bag_reader.h"
+#include "bag_sensor.h"
 #include "bag_topics.h"
 #include "bag_writer.h"
 #include "output_file.h"
@@ -45,7 +45,7 @@ constexpr char kStatisticsTopic[] = "/line_tracker/statistics";
 
 struct Arguments {
   std::string input, output;
-  std::string image_topic, camera_info_topic, imu_topic;
+  std::string image_topic, camera_info_topic, imu_topic, odometry_topic;
   std::string video;    ///< file for the painted images; empty: none
   std::string tracker;  ///< tet, tet_chord or a baseline
   bool with_images{false};
@@ -158,6 +158,8 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
   const auto images = inStampOrder(view, progress, drops);
 
   LineTracker tracker(tracker_parameters);
+  const std::string odometry_topic =
+      tracker.usesOdometry() ? chooseOdometryTopic(input, arguments.odometry_topic) : "";
   const bool chords = arguments.tracker == "tet_chord";
   if (arguments.tracker == "tet" || chords) {
     for (const std::string& note : tracker.notes()) std::cerr << "track_bag: " << note << '\n';
@@ -174,12 +176,21 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
   tracker.setMask(mask);
   const std::string mask_warning = maskWarning(node_parameters.mask, mask);
   if (!mask_warning.empty()) warn(progress, mask_warning);
-  std::unique_ptr<BagImu> imu;
-  if (!imu_topic.empty() && !baseline && tracker.usesImu() && !images.empty()) {
+  std::unique_ptr<BagSensor<sensor_msgs::Imu>> imu;
+  std::unique_ptr<BagSensor<nav_msgs::Odometry>> odometry;
+  const std::string camera_frame = images.empty() ? "" : imageHeader(images.begin()->second)->frame_id;
+  if (!imu_topic.empty() && !baseline && tracker.usesImu()) {
     progress.endLine();
-    imu = std::make_unique<BagImu>(input, imu_topic);
-    imu->setRotation(imageHeader(images.begin()->second)->frame_id, imuRotation(node_parameters.imu_rotation),
-                     tracker);
+    imu = std::make_unique<BagSensor<sensor_msgs::Imu>>(input, imu_topic);
+    const auto pose = imu->findPose(camera_frame, imuRotation(node_parameters.imu_rotation), "imu_rotation");
+    if (pose) tracker.setImuRotation(pose->linear());
+  }
+  if (!baseline && tracker.usesOdometry()) {
+    progress.endLine();
+    odometry = std::make_unique<BagSensor<nav_msgs::Odometry>>(input, odometry_topic);
+    const auto pose = odometry->findPose(camera_frame, odometryExtrinsic(node_parameters.odometry_extrinsic),
+                                         "odometry_extrinsic");
+    if (pose) tracker.setOdometryExtrinsic(*pose);
   }
 
   BagWriter output(arguments.output);
@@ -225,6 +236,7 @@ void trackBag(const Arguments& arguments, const LineTrackerParameters& tracker_p
     if (!trouble.empty()) warn(progress, trouble);
     const auto stamp_ns = static_cast<std::int64_t>(stamp.toNSec());
     if (imu) imu->feed(tracker.imuStamp(stamp_ns), tracker);
+    if (odometry) odometry->feed(stamp_ns, tracker);
     FrameResult result;
     try {
       result = front_end.process(gray, stamp_ns);
@@ -274,6 +286,7 @@ int run(int argc, char** argv) {
       ("image", po::value(&arguments.image_topic), "image topic; needed when the bag has several")
       ("camera-info", po::value(&arguments.camera_info_topic), "camera_info topic; needed when the bag has several")
       ("imu", po::value(&arguments.imu_topic), "IMU topic for the motion prior; the only one is taken without asking")
+      ("odometry", po::value(&arguments.odometry_topic), "odometry topic for prior=odometry; the only one is taken without asking")
       ("tracker", po::value(&arguments.tracker)->default_value("tet"),
        "tet, or one to compare with: tet_chord (lines straight in the raw image), lsd_lbd_knn, lsd_remapped (the same "
        "on undistorted images), lk_endpoints (in their statistics, flow is the matching and refine the description)")
@@ -308,6 +321,10 @@ int run(int argc, char** argv) {
   }
   if (!broken.empty()) throw std::runtime_error(broken);
   checkOutput(arguments.output, {arguments.input, config, node_parameters.mask});
+  if (!arguments.odometry_topic.empty() && tracker_parameters.motion.prior != "odometry") {
+    throw std::runtime_error("--odometry needs --set prior=odometry, prior is " +
+                             tracker_parameters.motion.prior);
+  }
   if (!arguments.video.empty()) {
     checkVideoName(arguments.video);
     checkOutput(arguments.video, {arguments.input, config, node_parameters.mask});

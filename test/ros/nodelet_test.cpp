@@ -3,6 +3,7 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/Imu.h>
@@ -351,8 +352,10 @@ TEST(Nodelet, CountsTheImagesThatNewerOnesReplace) {
   ASSERT_TRUE(stream.receives(1));
   for (std::size_t i = 1; i < images.size(); ++i) stream.send(images[i]);
   // The newest image always has its turn.
-  ASSERT_TRUE(waitFor(
-      [&] { return !stream.lines.empty() && stream.lines.back().header.stamp == kStart + kPeriod * 40; }));
+  const ros::Time newest = kStart + kPeriod * 40;
+  ASSERT_TRUE(waitFor([&] {
+    return stream.lines.back().header.stamp == newest && stream.statistics.back().header.stamp == newest;
+  }));
   const int count = stream.diagnostics_count;
   ASSERT_TRUE(waitFor([&] { return stream.diagnostics_count > count + 1; }));
   const int received = std::stoi(stream.diagnostics["images received"]);
@@ -361,6 +364,33 @@ TEST(Nodelet, CountsTheImagesThatNewerOnesReplace) {
   EXPECT_GT(dropped, 0);
   EXPECT_LE(stream.statistics.back().dropped_queue, static_cast<std::uint32_t>(dropped));
   EXPECT_GT(stream.statistics.back().dropped_queue, 0U);
+}
+
+TEST(Nodelet, TakesTheMotionFromAnOdometryWhereItIsAskedFor) {
+  Stream stream("driven");
+  ASSERT_TRUE(stream.connected());
+  ros::NodeHandle node;
+  ros::Publisher odometry = node.advertise<nav_msgs::Odometry>("/driven/odometry", 1000);
+  ASSERT_TRUE(waitFor([&] { return odometry.getNumSubscribers() == 1; }));
+  stream.send(scene::cameraInfo(kStart));
+  ASSERT_TRUE(waitFor([&] { return stream.diagnostics["calibration"].rfind("plumb_bob", 0) == 0; }));
+  for (int i = 0; i < 10; ++i) {
+    nav_msgs::Odometry message;
+    message.header.stamp = kStart + kPeriod * i;
+    message.header.frame_id = "odom";
+    message.child_frame_id = "base_link";
+    message.pose.pose.position.x = 0.002 * i;
+    message.pose.pose.orientation.w = 1.0;
+    odometry.publish(message);
+    stream.send(scene::monoMessage(i, message.header.stamp));
+  }
+  ASSERT_TRUE(stream.receives(10));
+  const auto uses = std::count_if(stream.statistics.begin(), stream.statistics.end(),
+                                  [](const TrackingStatistics& s) { return s.prior == "odometry"; });
+  EXPECT_GE(uses, 8);
+  EXPECT_TRUE(waitFor([&] { return stream.diagnostics["odometry"] == "/driven/odometry"; }))
+      << stream.diagnostics["odometry"];
+  EXPECT_EQ(stream.diagnostics["imu"], "not asked for");
 }
 
 TEST(Nodelet, LosesNoImageForWantOfAnImuThatIsOutOfStepAndTakesItBack) {

@@ -4,6 +4,7 @@
 
 #include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/Imu.h>
@@ -89,6 +90,24 @@ TEST(SimulateBag, StampsTheImuLaterByTheOffset) {
     EXPECT_EQ(imu[i].message.angular_velocity.x, expected[i].message.angular_velocity.x);
   }
   EXPECT_EQ(readTopic<sensor_msgs::Image>(late, "/cam0/image_raw").size(), 2U);
+}
+
+TEST(SimulateBag, WritesAnOdometryWithTheFrameThatMovesWithTheCamera) {
+  const TemporaryFolder folder;
+  const std::string bag = folder.path() / "driven.bag";
+  ASSERT_EQ(runTool("simulate_bag", {bag, "--motion", "drive", "--seconds", "0.3", "--odometry"}).status, 0);
+  const auto poses = readTopic<nav_msgs::Odometry>(bag, "/odom");
+  const auto images = readTopic<sensor_msgs::Image>(bag, "/cam0/image_raw");
+  ASSERT_GT(poses.size(), 20U);
+  EXPECT_EQ(poses[0].message.child_frame_id, "base_link");
+  EXPECT_LT(poses.front().message.header.stamp, images.front().message.header.stamp);
+  EXPECT_GT(poses.back().message.header.stamp, images.back().message.header.stamp);
+  EXPECT_GT(poses.back().message.pose.pose.position.x, 1.0);
+  const auto frames = readTopic<tf2_msgs::TFMessage>(bag, "/tf_static");
+  ASSERT_EQ(frames.size(), 1U);
+  ASSERT_EQ(frames[0].message.transforms.size(), 2U);
+  EXPECT_EQ(frames[0].message.transforms[1].header.frame_id, "cam0");
+  EXPECT_EQ(frames[0].message.transforms[1].child_frame_id, "base_link");
 }
 
 TEST(SimulateBag, DrivesAlongTheStreetAtTenImagesPerSecondWithKittisCamera) {

@@ -106,6 +106,32 @@ TEST_F(TrackBag, WithoutAnImuTheImagesPredict) {
   EXPECT_EQ(track(flight(), {"--set", "prior=none"})["none"], 11);
 }
 
+TEST_F(TrackBag, TakesTheOdometryOfTheBagWhereItIsAskedFor) {
+  const std::string driven = file("driven.bag");
+  ASSERT_EQ(runTool("simulate_bag", {driven, "--motion", "drive", "--seconds", "0.5", "--odometry"}).status,
+            0);
+  std::string errors;
+  EXPECT_GE(track(driven, {"--set", "prior=odometry"}, &errors)["odometry"], 4);
+  EXPECT_EQ(errors.find("warning"), std::string::npos) << errors;
+  EXPECT_EQ(track(driven, {})["odometry"], 0);
+
+  const ToolRun none = runTool("track_bag", {flight(), file("never.bag"), "--set", "prior=odometry"});
+  EXPECT_NE(none.status, 0);
+  EXPECT_NE(none.errors.find("has 0 topics of type nav_msgs/Odometry (none), prior=odometry needs one"),
+            std::string::npos)
+      << none.errors;
+  const ToolRun unused = runTool("track_bag", {driven, file("never.bag"), "--odometry", "/odom"});
+  EXPECT_NE(unused.status, 0);
+  EXPECT_NE(unused.errors.find("--odometry needs --set prior=odometry, prior is auto"), std::string::npos)
+      << unused.errors;
+  const ToolRun blind = runTool(
+      "track_bag", {driven, file("never.bag"), "--set", "prior=odometry", "--set", "ego_motion=false"});
+  EXPECT_NE(blind.status, 0);
+  EXPECT_NE(blind.errors.find("parameter prior is odometry, needs ego_motion to be true"), std::string::npos)
+      << blind.errors;
+  EXPECT_FALSE(std::filesystem::exists(file("never.bag")));
+}
+
 TEST_F(TrackBag, TheMaskKeepsLinesOutAndMustHaveTheSizeOfTheImages) {
   cv::Mat mask(480, 752, CV_8UC1, cv::Scalar(0));
   mask.colRange(0, 376).setTo(255);

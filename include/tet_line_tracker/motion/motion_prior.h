@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "tet_line_tracker/camera/camera_model.h"
 #include "tet_line_tracker/geometry/line_segment.h"
@@ -23,7 +23,7 @@ struct DepthGuess {
 
 /// How the camera is expected to have moved from the image before to this one.
 struct MotionPrediction {
-  enum class Source { kNone, kImu, kImage };
+  enum class Source { kNone, kImu, kImage, kOdometry };
   Source source{Source::kNone};
   /// Takes directions in the camera's optical frame at the image before to the same directions at this one.
   Eigen::Matrix3d rotation{Eigen::Matrix3d::Identity()};
@@ -35,7 +35,7 @@ struct MotionPrediction {
   bool confirmed{false};           ///< the rotation is that of corners too
   std::size_t inliers{0};          ///< corners that agree with the translation
   double angle() const;            ///< of the rotation [rad]
-  const char* sourceName() const;  ///< none, imu or image
+  const char* sourceName() const;  ///< none, imu, image or odometry
   bool used() const { return source != Source::kNone || translates(); }
   bool translates() const { return !translation.isZero(); }
 };
@@ -43,7 +43,8 @@ struct MotionPrediction {
 /// Predicts where lines are in the next image from the rotation of the camera, which moves far and near
 /// points alike and makes up most of the image motion of a fast camera. The rotation comes from a direct
 /// alignment of the coarsest pyramid levels, from a gyroscope, or from an alignment that begins at the
-/// gyroscope's, whichever fits the images best, and is used only if they agree that it is better than none.
+/// gyroscope's, whichever fits the images best, and is used only if they agree that it is better than none;
+/// or from an odometry, which tells the translation as well. Corners that are followed from there correct it.
 /// Not thread-safe.
 class MotionPrior {
  public:
@@ -59,6 +60,12 @@ class MotionPrior {
   void setImuRotation(const Eigen::Matrix3d& camera_from_imu);
   /// Angular velocity in the IMU's frame [rad/s], in the order of stamps [ns]; late ones are ignored.
   void addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3d& angular_velocity);
+
+  /// Pose of the odometry's body in the camera's optical frame [m]. Without it the odometry is not used.
+  void setOdometryExtrinsic(const Eigen::Isometry3d& camera_from_body);
+  /// Pose of the body in the odometry's frame [m], in the order of stamps [ns]; late ones are ignored. Used
+  /// by the prior `odometry` where a camera is set.
+  void addOdometry(std::int64_t stamp_ns, const Eigen::Isometry3d& odometry_from_body);
 
   /// Bias of the gyroscope as learned from the images so far, in the camera's optical frame [rad/s].
   Eigen::Vector3d gyroBias() const;

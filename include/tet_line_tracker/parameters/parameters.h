@@ -30,7 +30,7 @@ struct EndpointTrackerParameters {
 /// Where endpoints are expected in the next image.
 struct MotionPriorParameters {
   /// none, image, imu (image where its samples are missing), auto (image also where the images contradict the
-  /// imu)
+  /// imu), odometry (image where it is missing or corners contradict it; needs ego_motion)
   std::string prior{"auto"};
   /// the translation of the camera and the depth of lines predict their parallax; needs a calibration
   bool ego_motion{true};

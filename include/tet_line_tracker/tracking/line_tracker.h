@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
 #include "tet_line_tracker/parameters/parameters.h"
@@ -37,6 +38,14 @@ class LineTracker : public LineFrontEnd {
   /// Angular velocity in the IMU's frame [rad/s] at a stamp [ns]. Give those up to imuStamp() of an image,
   /// and one after it, before the image.
   void addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3d& angular_velocity);
+
+  /// Whether poses of an odometry can make a difference with these parameters.
+  bool usesOdometry() const;
+  /// Pose of the odometry's body in the camera's optical frame [m]; needed for the prior `odometry`.
+  void setOdometryExtrinsic(const Eigen::Isometry3d& camera_from_body);
+  /// Pose of the body in the odometry's frame [m] at a stamp [ns]. Give those up to the stamp of an image,
+  /// and one after it, before the image.
+  void addOdometry(std::int64_t stamp_ns, const Eigen::Isometry3d& odometry_from_body);
 
   /// The IMU's stamp of what happens at a stamp of the images: later by the parameter imu_time_offset, or by
   /// what is estimated so far [ns]. Up to it, and one after it, an image needs angular velocities.

@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kGyroSigma = 0.001;  ///< of a rotation that the gyroscope measured, besides its bias [rad]
 constexpr double kImageSigma = 0.04;  ///< of one that the images alone show: it takes up parallax [rad]
+constexpr double kOdometrySigma = 0.015;  ///< of one by an odometry: wheels do not feel pitch and roll [rad]
+constexpr double kMinStep = 0.005;        ///< by an odometry; a shorter one has no direction [m]
 constexpr double kOtherRotation = 0.02;   ///< a difference that corners are to decide on [rad]
 constexpr std::size_t kManyInliers = 20;  ///< that no chance brings together
 constexpr std::size_t kMinRatios = 5;     ///< corners that must tell how much longer a step is than the last
@@ -41,6 +43,7 @@ void EgoMotionTracker::reset() {
   translation_.setZero();
   rotation_.setZero();
   last_interval_s_ = 0.0;
+  last_step_m_ = 0.0;
 }
 
 void EgoMotionTracker::rememberPlaces() {
@@ -52,7 +55,7 @@ void EgoMotionTracker::rememberPlaces() {
 }
 
 void EgoMotionTracker::expect(const Eigen::Matrix3d& rotation, double interval_s) {
-  const Eigen::Vector3d step = steadyRatio(interval_s) * (rotation * translation_);
+  const Eigen::Vector3d step = expectedStep(rotation, interval_s);
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     CornerTracker::Corner& corner = corners_.corner(i);
     const Known& known = known_[i];
@@ -94,6 +97,16 @@ Eigen::Matrix3d EgoMotionTracker::steadyRotation(double interval_s) const {
   return so3Exp(steadyRatio(interval_s) * rotation_).toRotationMatrix();
 }
 
+std::optional<double> EgoMotionTracker::odometryRatio() const {
+  if (!step_ || !(last_step_m_ >= kMinStep) || translation_.isZero()) return std::nullopt;
+  return std::min(kMaxRatio, step_->norm() / last_step_m_);
+}
+
+Eigen::Vector3d EgoMotionTracker::expectedStep(const Eigen::Matrix3d& rotation, double interval_s) const {
+  if (const std::optional<double> ratio = odometryRatio()) return *ratio * step_->stableNormalized();
+  return steadyRatio(interval_s) * (rotation * translation_);
+}
+
 EgoMotion EgoMotionTracker::follow(const ImagePyramid& pyramid, double interval_s,
                                    const Eigen::Matrix3d& rotation, const std::optional<Turn>& measured,
                                    std::size_t min_inliers) {
@@ -102,15 +115,16 @@ EgoMotion EgoMotionTracker::follow(const ImagePyramid& pyramid, double interval_
   collectPairs(rotation);
   if (pairs_.size() < min_inliers) return {};
   EpipolarEstimator::Prior prior;
-  prior.rotation_sigma = kImageSigma;
+  prior.rotation_sigma = step_ ? kOdometrySigma : kImageSigma;
   if (measured) {
     prior.rotation = so3Log(measured->rotation * rotation.transpose());
     prior.rotation_sigma = kGyroSigma + measured->deviation;
   }
   prior.steady = so3Log(steadyRotation(interval_s) * rotation.transpose());
-  prior.translation = rotation * translation_;
+  const bool steps = step_ && step_->norm() >= kMinStep;
+  prior.translation = steps ? step_->normalized() : Eigen::Vector3d(rotation * translation_);
   EgoMotion motion = estimator_.estimate(pairs_, focal_, prior);
-  if (measured && !measured->trusted && !motion.rotates) {
+  if ((step_ || (measured && !measured->trusted)) && !motion.rotates) {
     prior.rotation.setZero();
     prior.rotation_sigma = kImageSigma;
     motion = estimator_.estimate(pairs_, focal_, prior);
@@ -178,15 +192,21 @@ EgoMotion EgoMotionTracker::followFromElsewhere(const ImagePyramid& pyramid, dou
 }
 
 void EgoMotionTracker::update(const ImagePyramid& pyramid, double interval_s,
-                              const std::optional<Turn>& measured, MotionPrediction& prediction) {
+                              const std::optional<Turn>& measured, const std::optional<Eigen::Vector3d>& step,
+                              MotionPrediction& prediction) {
   if (!camera_) return;
+  step_ = step;
   rememberPlaces();
   EgoMotion motion = follow(pyramid, interval_s, prediction.rotation, measured, 0);
-  if (!motion.rotates) motion = followFromElsewhere(pyramid, interval_s, measured, prediction);
+  if (!motion.rotates) {
+    step_.reset();  // the odometry may be what led them astray
+    motion = followFromElsewhere(pyramid, interval_s, measured, prediction);
+  }
   if (motion.known()) {
     prediction.rotation = so3Exp(motion.rotation).toRotationMatrix() * prediction.rotation;
     for (PointPair& pair : pairs_) pair.before += motion.rotation.cross(pair.before);
-    prediction.step_ratio = translation_.isZero() ? 0.0 : stepRatio(motion, steadyRatio(interval_s));
+    prediction.step_ratio =
+        translation_.isZero() ? 0.0 : stepRatio(motion, odometryRatio().value_or(steadyRatio(interval_s)));
     prediction.translation = motion.translation;
     prediction.inliers = motion.inliers;
     learnDepths(motion, prediction.step_ratio);
@@ -194,6 +214,12 @@ void EgoMotionTracker::update(const ImagePyramid& pyramid, double interval_s,
     if (motion.rotates)
       prediction.rotation = so3Exp(motion.rotation).toRotationMatrix() * prediction.rotation;
     for (Known& known : known_) known.inverse_depth = known.inverse_before = 0.0;
+    if (step && !motion.rotates && step->norm() >= kMinStep) {
+      // Nothing in the image speaks against the odometry.
+      step_ = step;
+      prediction.step_ratio = odometryRatio().value_or(0.0);
+      prediction.translation = step->normalized();
+    }
   }
   prediction.confirmed = motion.rotates;
   for (std::size_t k = 0; k < pairs_.size(); ++k) known_[slots_[k]].ray = pairs_[k].now;
@@ -209,6 +235,7 @@ void EgoMotionTracker::update(const ImagePyramid& pyramid, double interval_s,
   translation_ = prediction.translation;
   rotation_ = so3Log(prediction.rotation);
   last_interval_s_ = interval_s;
+  last_step_m_ = step ? step->norm() : 0.0;
 }
 
 std::optional<DepthGuess> EgoMotionTracker::depthNear(const Eigen::Vector2f& pixel) const {

@@ -34,9 +34,10 @@ class EgoMotionTracker {
 
   /// Completes `prediction`, which says how the camera turned from the image of the call before to this one,
   /// by its translation, and corrects the rotation. `interval_s`: between both images [s]. `measured`: how it
-  /// turned by the gyroscope, which no parallax deceives.
+  /// turned by the gyroscope, which no parallax deceives. `step`: how points move by an odometry while the
+  /// camera takes its step, which turned as `prediction` says [m].
   void update(const ImagePyramid& pyramid, double interval_s, const std::optional<Turn>& measured,
-              MotionPrediction& prediction);
+              const std::optional<Eigen::Vector3d>& step, MotionPrediction& prediction);
 
   /// Inverse depth of what is near `pixel` in the image before the last update(), in units of 1 / the step of
   /// that update; nothing when no corner has one.
@@ -52,6 +53,10 @@ class EgoMotionTracker {
   };
 
   void rememberPlaces();
+  /// How points will move in units of the last step: by the odometry, or if the camera went on as before.
+  Eigen::Vector3d expectedStep(const Eigen::Matrix3d& rotation, double interval_s) const;
+  /// How much longer the step of the odometry is than its last; nothing when either is unknown.
+  std::optional<double> odometryRatio() const;
   /// How much longer this step is than the last, and how the camera turned, if it went on as before.
   double steadyRatio(double interval_s) const;
   Eigen::Matrix3d steadyRotation(double interval_s) const;
@@ -79,6 +84,8 @@ class EgoMotionTracker {
   Eigen::Vector3d translation_{Eigen::Vector3d::Zero()};  ///< of the last step
   Eigen::Vector3d rotation_{Eigen::Vector3d::Zero()};     ///< of the last step, rotation vector [rad]
   double last_interval_s_{0.0};
+  std::optional<Eigen::Vector3d> step_;  ///< to this image, by the odometry [m]
+  double last_step_m_{0.0};              ///< length of the one before; 0: not known
 };
 
 }  // namespace tet_line_tracker

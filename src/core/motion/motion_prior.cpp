@@ -10,6 +10,7 @@
 #include "motion/gyro_bias.h"
 #include "motion/gyro_integrator.h"
 #include "motion/imu_time_offset.h"
+#include "motion/odometry_interpolator.h"
 #include "motion/rotation_aligner.h"
 
 namespace tet_line_tracker {
@@ -47,6 +48,8 @@ const char* MotionPrediction::sourceName() const {
       return "imu";
     case Source::kImage:
       return "image";
+    case Source::kOdometry:
+      return "odometry";
     default:
       return "none";
   }
@@ -80,12 +83,20 @@ class MotionPrior::Implementation {
     gyro_.add(stamp_ns, velocity);
     if (estimated_offset_) estimated_offset_->addAngularVelocity(stamp_ns, velocity);
   }
+  void setOdometryExtrinsic(const Eigen::Isometry3d& camera_from_body) {
+    camera_from_body_ = camera_from_body;
+  }
+  void addOdometry(std::int64_t stamp_ns, const Eigen::Isometry3d& odometry_from_body) {
+    odometry_.add(stamp_ns, odometry_from_body);
+  }
   double imuTimeOffset() const { return estimated_offset_ ? estimated_offset_->value() : given_offset_s_; }
   void reset() {
     coarse_.clearTemplate();
     fine_.clearTemplate();
     ego_motion_.reset();
     last_rotation_.setZero();
+    last_stamp_ns_.reset();
+    odometry_doubted_ = false;
   }
   MotionPrediction predict(const ImagePyramid& pyramid, std::int64_t stamp_ns);
   LineSegment apply(const MotionPrediction& prediction, const LineSegment& segment,
@@ -105,12 +116,18 @@ class MotionPrior::Implementation {
   }
   void prepareCamera(const ImagePyramid& pyramid);
   std::optional<Eigen::Vector3f> integrateGyro(std::int64_t stamp_ns) const;
+  /// Takes points in the camera's optical frame at the image before to the same points at this one.
+  std::optional<Eigen::Isometry3d> interpolateOdometry(std::int64_t stamp_ns) const;
   bool estimatesEgoMotion() const { return parameters_.ego_motion && camera_ != nullptr; }
   /// `measured`, `seen`: rotation by the gyroscope, its bias included, and by the alignment of the images
   /// alone, where it was needed.
   void addEgoMotion(const ImagePyramid& pyramid, const std::optional<Eigen::Vector3f>& measured,
-                    const std::optional<Eigen::Vector3f>& seen, float interval_s,
+                    const std::optional<Eigen::Vector3f>& seen,
+                    const std::optional<Eigen::Isometry3d>& odometry, float interval_s,
                     MotionPrediction& prediction);
+  /// Whether the images fit at least as well with the odometry's rotation as with what they show alone.
+  bool confirmsOdometry(const ImagePyramid& pyramid, const Eigen::Matrix3d& rotation,
+                        const Eigen::Vector3f& seen);
   /// Rotation by gyroscope or images, whichever the images confirm; none where neither is.
   void chooseRotation(const ImagePyramid& pyramid, const Eigen::Vector3f& seen,
                       const std::optional<Eigen::Vector3f>& measured, float interval_s,
@@ -134,7 +151,10 @@ class MotionPrior::Implementation {
   RotationAligner fine_{kFineLevel};
   EgoMotionTracker ego_motion_;
   GyroBias gyro_bias_;  ///< of directions in the camera's optical frame, which rotate against the camera
-  std::int64_t last_stamp_ns_{0};
+  std::optional<Eigen::Isometry3d> camera_from_body_;
+  OdometryInterpolator odometry_;
+  bool odometry_doubted_{false};               ///< no corner was found again where it led
+  std::optional<std::int64_t> last_stamp_ns_;  ///< nothing before the first image
   Eigen::Vector3f last_rotation_{Eigen::Vector3f::Zero()};
 };
 
@@ -155,11 +175,29 @@ void MotionPrior::Implementation::prepareCamera(const ImagePyramid& pyramid) {
 }
 
 std::optional<Eigen::Vector3f> MotionPrior::Implementation::integrateGyro(std::int64_t stamp_ns) const {
-  if (!camera_from_imu_ || (parameters_.prior != "imu" && parameters_.prior != "auto")) return std::nullopt;
+  if (!last_stamp_ns_ || !camera_from_imu_ || (parameters_.prior != "imu" && parameters_.prior != "auto"))
+    return std::nullopt;
   const std::optional<Eigen::Matrix3d> rotation =
-      gyro_.rotation(imuStamp(last_stamp_ns_), imuStamp(stamp_ns), Eigen::Vector3d::Zero());
+      gyro_.rotation(imuStamp(*last_stamp_ns_), imuStamp(stamp_ns), Eigen::Vector3d::Zero());
   if (!rotation) return std::nullopt;
   return so3Log(*camera_from_imu_ * *rotation * camera_from_imu_->transpose()).cast<float>();
+}
+
+std::optional<Eigen::Isometry3d> MotionPrior::Implementation::interpolateOdometry(
+    std::int64_t stamp_ns) const {
+  if (!last_stamp_ns_ || !camera_from_body_ || parameters_.prior != "odometry" || !estimatesEgoMotion()) {
+    return std::nullopt;
+  }
+  const std::optional<Eigen::Isometry3d> motion = odometry_.motion(*last_stamp_ns_, stamp_ns);
+  if (!motion) return std::nullopt;
+  return *camera_from_body_ * *motion * camera_from_body_->inverse();
+}
+
+bool MotionPrior::Implementation::confirmsOdometry(const ImagePyramid& pyramid,
+                                                   const Eigen::Matrix3d& rotation,
+                                                   const Eigen::Vector3f& seen) {
+  RotationAligner& aligner = fine_.hasTemplate() ? fine_ : coarse_;
+  return !(aligner.cost(pyramid, so3Log(rotation).cast<float>()) > aligner.cost(pyramid, seen));
 }
 
 Eigen::Vector3f MotionPrior::Implementation::alignImages(const ImagePyramid& pyramid) {
@@ -211,43 +249,54 @@ MotionPrediction MotionPrior::Implementation::predict(const ImagePyramid& pyrami
   MotionPrediction prediction;
   if (parameters_.prior == "none") return prediction;
   prepareCamera(pyramid);
-  const float interval_s = 1e-9F * static_cast<float>(stamp_ns - last_stamp_ns_);
+  const float interval_s = 1e-9F * static_cast<float>(stamp_ns - last_stamp_ns_.value_or(stamp_ns));
   const bool can_align = fine_.hasTemplate() || coarse_.hasTemplate();
-  const std::optional<Eigen::Vector3f> measured = can_align ? integrateGyro(stamp_ns) : std::nullopt;
+  const std::optional<Eigen::Vector3f> measured = integrateGyro(stamp_ns);
+  std::optional<Eigen::Isometry3d> odometry = interpolateOdometry(stamp_ns);
+  const bool led = odometry && !odometry_doubted_;
   const bool trusted = measured && estimatesEgoMotion() && gyro_bias_.isTrusted();
   std::optional<Eigen::Vector3f> seen;
-  if (can_align && (!trusted || estimated_offset_)) seen = alignImages(pyramid);
-  if (trusted) {
+  if (can_align && !led && (!trusted || estimated_offset_)) seen = alignImages(pyramid);
+  if (odometry && seen && !confirmsOdometry(pyramid, odometry->linear(), *seen)) odometry.reset();
+  if (odometry) {
+    prediction.source = MotionPrediction::Source::kOdometry;
+    prediction.rotation = odometry->linear();
+  } else if (trusted) {
     // Images align by what moves with the most of them, and large parallax leads them astray.
     prediction.source = MotionPrediction::Source::kImu;
     prediction.rotation = rotationOf(withoutBias(*measured, interval_s));
   } else if (seen) {
     chooseRotation(pyramid, *seen, measured, interval_s, prediction);
   }
-  if (seen && estimated_offset_ && camera_from_imu_) {
-    estimated_offset_->addImageRotation(last_stamp_ns_, stamp_ns, seen->cast<double>(), *camera_from_imu_);
+  if (seen && estimated_offset_ && camera_from_imu_ && last_stamp_ns_) {
+    estimated_offset_->addImageRotation(*last_stamp_ns_, stamp_ns, seen->cast<double>(), *camera_from_imu_);
   }
-  if (estimatesEgoMotion()) addEgoMotion(pyramid, measured, seen, interval_s, prediction);
+  if (estimatesEgoMotion()) addEgoMotion(pyramid, measured, seen, odometry, interval_s, prediction);
   last_rotation_ = so3Log(prediction.rotation).cast<float>();
   coarse_.extractTemplate(pyramid);
   fine_.extractTemplate(pyramid);
   // An estimate may still move back.
   gyro_.forgetBefore(imuStamp(stamp_ns) - (estimated_offset_ ? GyroIntegrator::kMaxGapNs : 0));
+  odometry_.forgetBefore(stamp_ns);
   last_stamp_ns_ = stamp_ns;
   return prediction;
 }
 
 void MotionPrior::Implementation::addEgoMotion(const ImagePyramid& pyramid,
                                                const std::optional<Eigen::Vector3f>& measured,
-                                               const std::optional<Eigen::Vector3f>& seen, float interval_s,
-                                               MotionPrediction& prediction) {
+                                               const std::optional<Eigen::Vector3f>& seen,
+                                               const std::optional<Eigen::Isometry3d>& odometry,
+                                               float interval_s, MotionPrediction& prediction) {
   std::optional<EgoMotionTracker::Turn> turn;
   if (measured) {
     turn = EgoMotionTracker::Turn{rotationOf(withoutBias(*measured, interval_s)),
                                   static_cast<double>(interval_s * gyro_bias_.deviation()),
                                   gyro_bias_.isTrusted()};
   }
-  ego_motion_.update(pyramid, static_cast<double>(interval_s), turn, prediction);
+  std::optional<Eigen::Vector3d> step;
+  if (odometry) step = odometry->translation();
+  ego_motion_.update(pyramid, static_cast<double>(interval_s), turn, step, prediction);
+  if (odometry) odometry_doubted_ = !prediction.confirmed;
   if (!measured) return;
   if (prediction.confirmed && (gyro_bias_.isTrusted() || !prediction.translation.isZero())) {
     // The rotation that is left when translation has its part: parallax does not look like a bias.
@@ -296,6 +345,12 @@ void MotionPrior::setImuRotation(const Eigen::Matrix3d& camera_from_imu) {
 }
 void MotionPrior::addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3d& angular_velocity) {
   implementation_->addAngularVelocity(stamp_ns, angular_velocity);
+}
+void MotionPrior::setOdometryExtrinsic(const Eigen::Isometry3d& camera_from_body) {
+  implementation_->setOdometryExtrinsic(camera_from_body);
+}
+void MotionPrior::addOdometry(std::int64_t stamp_ns, const Eigen::Isometry3d& odometry_from_body) {
+  implementation_->addOdometry(stamp_ns, odometry_from_body);
 }
 Eigen::Vector3d MotionPrior::gyroBias() const {
   return implementation_->gyroBias();

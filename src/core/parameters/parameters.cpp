@@ -29,9 +29,11 @@ ParameterTable tableOf(EndpointTrackerParameters& p) {
 
 ParameterTable tableOf(MotionPriorParameters& p) {
   ParameterTable table;
-  table.add("prior", p.prior, {"auto", "none", "imu", "image"},
-            "Rotation by which endpoints are predicted; `imu`: from the image where IMU samples are missing; "
-            "`auto`: also where the images contradict the IMU");
+  table.add(
+      "prior", p.prior, {"auto", "none", "imu", "image", "odometry"},
+      "Motion by which endpoints are predicted; `imu`: from the image where IMU samples are missing; "
+      "`auto`: also where the images contradict the IMU; `odometry`: from the topic `odometry`, and from "
+      "the image where it is missing or corners contradict it");
   table.add(
       "ego_motion", p.ego_motion,
       "Estimate the translation of the camera and the depth of lines, which predict their parallax; needs "
@@ -133,6 +135,9 @@ std::vector<std::string> check(const LineTrackerParameters& parameters) {
         "parameter imu_time_offset is " +
         (parameters.motion.imu_time_offset.empty() ? "empty" : parameters.motion.imu_time_offset) +
         ", needs auto or a number in -0.5..0.5 [s]");
+  }
+  if (parameters.motion.prior == "odometry" && !parameters.motion.ego_motion) {
+    broken.emplace_back("parameter prior is odometry, needs ego_motion to be true");
   }
   if (parameters.detection.min_lines > parameters.detection.max_lines) {
     broken.push_back("parameter min_lines is " + std::to_string(parameters.detection.min_lines) +

@@ -35,6 +35,7 @@ class LineTracker::Implementation {
   void setCamera(std::shared_ptr<const CameraModel> camera);
   void setMask(const cv::Mat& mask) { area_.setMask(mask); }
   bool usesImu() const { return method_.motion.prior == "imu" || method_.motion.prior == "auto"; }
+  bool usesOdometry() const { return method_.motion.prior == "odometry"; }
   MotionPrior& prior() { return prior_; }
   const LineTrackerParameters& parameters() const { return parameters_; }
   std::string detectorName() const { return method_.initializer->detectorName(); }
@@ -207,6 +208,15 @@ void LineTracker::setImuRotation(const Eigen::Matrix3d& camera_from_imu) {
 }
 void LineTracker::addAngularVelocity(std::int64_t stamp_ns, const Eigen::Vector3d& angular_velocity) {
   implementation_->prior().addAngularVelocity(stamp_ns, angular_velocity);
+}
+bool LineTracker::usesOdometry() const {
+  return implementation_->usesOdometry();
+}
+void LineTracker::setOdometryExtrinsic(const Eigen::Isometry3d& camera_from_body) {
+  implementation_->prior().setOdometryExtrinsic(camera_from_body);
+}
+void LineTracker::addOdometry(std::int64_t stamp_ns, const Eigen::Isometry3d& odometry_from_body) {
+  implementation_->prior().addOdometry(stamp_ns, odometry_from_body);
 }
 std::int64_t LineTracker::imuStamp(std::int64_t image_stamp_ns) const {
   return image_stamp_ns + std::llround(1e9 * implementation_->prior().imuTimeOffset());

@@ -37,7 +37,7 @@ class EgoMotionTest : public testing::Test {
   /// The next image, 0.1 s later; the camera is expected not to turn.
   MotionPrediction see(const Pose& pose, const std::optional<EgoMotionTracker::Turn>& gyro = std::nullopt) {
     MotionPrediction prediction;
-    tracker_.update(view(scene_, pose), 0.1, gyro, prediction);
+    tracker_.update(view(scene_, pose), 0.1, gyro, std::nullopt, prediction);
     return prediction;
   }
 

@@ -1,10 +1,10 @@
-#include "imu_sync_monitor.h"
+#include "sensor_sync_monitor.h"
 
 #include <algorithm>
 
 namespace tet_line_tracker {
 
-void ImuSyncMonitor::addCovered() {
+void SensorSyncMonitor::addCovered() {
   if (in_step_) {
     misses_ = 0;
   } else {
@@ -12,8 +12,8 @@ void ImuSyncMonitor::addCovered() {
   }
 }
 
-void ImuSyncMonitor::addMissed(std::int64_t stamp_ns, std::chrono::nanoseconds lag,
-                               Clock::duration affordable, Clock::time_point now) {
+void SensorSyncMonitor::addMissed(std::int64_t stamp_ns, std::chrono::nanoseconds lag,
+                                  Clock::duration affordable, Clock::time_point now) {
   if (in_step_) {
     affordable_ = misses_ == 0 ? affordable : std::min(affordable_, affordable);
     if (++misses_ < kImages) return;
@@ -29,7 +29,7 @@ void ImuSyncMonitor::addMissed(std::int64_t stamp_ns, std::chrono::nanoseconds l
   probe_ = Probe{stamp_ns, now + affordable_};
 }
 
-void ImuSyncMonitor::addMessage(std::int64_t stamp_ns, Clock::time_point now) {
+void SensorSyncMonitor::addMessage(std::int64_t stamp_ns, Clock::time_point now) {
   if (in_step_ || !probe_ || stamp_ns < probe_->stamp_ns) return;
   if (now <= probe_->deadline) {
     addHit();
@@ -39,7 +39,7 @@ void ImuSyncMonitor::addMessage(std::int64_t stamp_ns, Clock::time_point now) {
   probe_.reset();
 }
 
-void ImuSyncMonitor::addHit() {
+void SensorSyncMonitor::addHit() {
   if (++hits_ < kImages) return;
   in_step_ = true;
   misses_ = 0;

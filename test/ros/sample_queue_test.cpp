@@ -1,4 +1,4 @@
-#include "angular_velocity_queue.h"
+#include "sample_queue.h"
 
 #include <gtest/gtest.h>
 
@@ -9,20 +9,20 @@ AngularVelocity sampleAt(std::int64_t stamp_ns) {
   return {stamp_ns, Eigen::Vector3d::Zero()};
 }
 
-TEST(AngularVelocityQueue, AMessageIsTakenWithItsStampAndRates) {
+TEST(SampleQueue, AMessageIsTakenWithItsStampAndRates) {
   sensor_msgs::Imu message;
   message.header.stamp = ros::Time(3, 5);
   message.angular_velocity.x = 0.1;
   message.angular_velocity.y = -0.2;
   message.angular_velocity.z = 0.3;
-  const AngularVelocity sample = toAngularVelocity(message);
+  const AngularVelocity sample = toSample(message);
   EXPECT_EQ(sample.stamp_ns, 3000000005);
   EXPECT_EQ(sample.rad_per_s, Eigen::Vector3d(0.1, -0.2, 0.3));
 }
 
-TEST(AngularVelocityQueue, AnImageTakesTheSamplesUpToItsStampAndOneMore) {
+TEST(SampleQueue, AnImageTakesTheSamplesUpToItsStampAndOneMore) {
   LineTracker tracker(LineTrackerParameters{});
-  AngularVelocityQueue queue;
+  SampleQueue<AngularVelocity> queue;
   for (const int stamp : {10, 20, 30, 40, 50}) queue.add(sampleAt(stamp));
   EXPECT_EQ(queue.oldest(), 10);
   queue.feed(25, tracker);
@@ -36,9 +36,9 @@ TEST(AngularVelocityQueue, AnImageTakesTheSamplesUpToItsStampAndOneMore) {
   EXPECT_EQ(queue.newest(), 50);
 }
 
-TEST(AngularVelocityQueue, CoversImagesUpToItsNewestSampleAlsoWhenTheTrackerHasIt) {
+TEST(SampleQueue, CoversImagesUpToItsNewestSampleAlsoWhenTheTrackerHasIt) {
   LineTracker tracker(LineTrackerParameters{});
-  AngularVelocityQueue queue;
+  SampleQueue<AngularVelocity> queue;
   EXPECT_FALSE(queue.covers(10));
   queue.add(sampleAt(10));
   EXPECT_TRUE(queue.covers(10));
@@ -47,8 +47,8 @@ TEST(AngularVelocityQueue, CoversImagesUpToItsNewestSampleAlsoWhenTheTrackerHasI
   EXPECT_TRUE(queue.covers(10));
 }
 
-TEST(AngularVelocityQueue, IgnoresSamplesThatAreNotNewerOrHaveNoStamp) {
-  AngularVelocityQueue queue;
+TEST(SampleQueue, IgnoresSamplesThatAreNotNewerOrHaveNoStamp) {
+  SampleQueue<AngularVelocity> queue;
   queue.add(sampleAt(0));
   EXPECT_FALSE(queue.newest());
   queue.add(sampleAt(20));
@@ -58,8 +58,8 @@ TEST(AngularVelocityQueue, IgnoresSamplesThatAreNotNewerOrHaveNoStamp) {
   EXPECT_EQ(queue.newest(), 20);
 }
 
-TEST(AngularVelocityQueue, KeepsTheNewestSamples) {
-  AngularVelocityQueue queue;
+TEST(SampleQueue, KeepsTheNewestSamples) {
+  SampleQueue<AngularVelocity> queue;
   for (const int stamp : {10, 20, 30, 40}) queue.add(sampleAt(stamp));
   queue.keepNewest(2);
   EXPECT_EQ(queue.oldest(), 30);

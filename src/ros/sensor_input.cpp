@@ -1,4 +1,4 @@
-#include "imu_input.h"
+#include "sensor_input.h"
 
 #include <cmath>
 #include <cstdio>
@@ -12,11 +12,11 @@ constexpr std::size_t kMaxSegments = 4;      // if no image comes
 
 }  // namespace
 
-void ImuInput::add(const sensor_msgs::Imu& message) {
-  const AngularVelocity sample = toAngularVelocity(message);
+template <class Sample>
+void SensorInput<Sample>::add(const Sample& sample, const std::string& frame) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    frame_ = message.header.frame_id;
+    frame_ = frame;
     silent_ = false;
     last_stamp_ns_ = sample.stamp_ns;
     if (sample.stamp_ns != 0) {  // as with images, 0 is no stamp
@@ -32,7 +32,9 @@ void ImuInput::add(const sensor_msgs::Imu& message) {
   changed_.notify_all();
 }
 
-bool ImuInput::waitFor(std::int64_t stamp_ns, double patience_s, const std::function<bool()>& is_crowded) {
+template <class Sample>
+bool SensorInput<Sample>::waitFor(std::int64_t stamp_ns, double patience_s,
+                                  const std::function<bool()>& is_crowded) {
   std::unique_lock<std::mutex> lock(mutex_);
   const auto settled = [&] {
     dropOldSegments(stamp_ns);
@@ -61,24 +63,28 @@ bool ImuInput::waitFor(std::int64_t stamp_ns, double patience_s, const std::func
   return false;
 }
 
-void ImuInput::wake() {
+template <class Sample>
+void SensorInput<Sample>::wake() {
   // With the mutex, as the waiting thread might otherwise sleep between its question and the news.
   { const std::lock_guard<std::mutex> lock(mutex_); }
   changed_.notify_all();
 }
 
-void ImuInput::feed(std::int64_t stamp_ns, LineTracker& tracker) {
+template <class Sample>
+void SensorInput<Sample>::feed(std::int64_t stamp_ns, LineTracker& tracker) {
   const std::lock_guard<std::mutex> lock(mutex_);
   dropOldSegments(stamp_ns);
   if (!segments_.empty()) segments_.front().feed(stamp_ns, tracker);
 }
 
-std::optional<std::string> ImuInput::frame() const {
+template <class Sample>
+std::optional<std::string> SensorInput<Sample>::frame() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return frame_;
 }
 
-std::optional<std::string> ImuInput::outOfStep() const {
+template <class Sample>
+std::optional<std::string> SensorInput<Sample>::outOfStep() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (monitor_.inStep()) return std::nullopt;
   if (last_stamp_ns_ == 0) return "its messages have no stamp";
@@ -90,7 +96,8 @@ std::optional<std::string> ImuInput::outOfStep() const {
 }
 
 /// An image of the time after a jump makes the messages from before it worthless.
-void ImuInput::dropOldSegments(std::int64_t stamp_ns) {
+template <class Sample>
+void SensorInput<Sample>::dropOldSegments(std::int64_t stamp_ns) {
   while (segments_.size() > 1) {
     const Segment& segment = segments_.front();
     const std::optional<std::int64_t> oldest = segment.oldest();
@@ -101,7 +108,8 @@ void ImuInput::dropOldSegments(std::int64_t stamp_ns) {
 }
 
 /// One message with a wrong stamp begins a segment too, in which the good ones then go on.
-bool ImuInput::isInLaterSegment(std::int64_t stamp_ns) const {
+template <class Sample>
+bool SensorInput<Sample>::isInLaterSegment(std::int64_t stamp_ns) const {
   for (std::size_t i = 1; i < segments_.size(); ++i) {
     const std::optional<std::int64_t> oldest = segments_[i].oldest();
     if (oldest && *oldest <= stamp_ns && segments_[i].covers(stamp_ns)) return true;
@@ -109,15 +117,20 @@ bool ImuInput::isInLaterSegment(std::int64_t stamp_ns) const {
   return false;
 }
 
-bool ImuInput::covers(std::int64_t stamp_ns) const {
+template <class Sample>
+bool SensorInput<Sample>::covers(std::int64_t stamp_ns) const {
   return !segments_.empty() && segments_.front().covers(stamp_ns);
 }
 
 /// Whether even the oldest sample lies so far after the image that there is nothing to integrate from.
-bool ImuInput::isAheadOf(std::int64_t stamp_ns) const {
+template <class Sample>
+bool SensorInput<Sample>::isAheadOf(std::int64_t stamp_ns) const {
   if (segments_.empty()) return false;
   const std::optional<std::int64_t> oldest = segments_.front().oldest();
   return oldest && *oldest > stamp_ns + kJumpNs;
 }
+
+template class SensorInput<AngularVelocity>;
+template class SensorInput<BodyPose>;
 
 }  // namespace tet_line_tracker

@@ -1,4 +1,4 @@
-#include "imu_input.h"
+#include "sensor_input.h"
 
 #include <gtest/gtest.h>
 
@@ -90,7 +90,7 @@ bool wouldWait(ImuInput& imu, std::int64_t stamp_ns) {
 TEST(ImuInput, AnImuThatIsBehindIsNotWaitedForAfterAFewImages) {
   for (const double behind : {0.5, 1000.0}) {
     ImuInput imu;
-    for (int i = 0; i < ImuSyncMonitor::kImages; ++i) {
+    for (int i = 0; i < SensorSyncMonitor::kImages; ++i) {
       EXPECT_FALSE(imu.outOfStep());
       imu.add(messageAt(kStart - behind + kPeriod * i));
       EXPECT_FALSE(imu.waitFor(ns(kStart + kPeriod * i), 0.0));
@@ -108,7 +108,7 @@ TEST(ImuInput, AnImuThatIsBehindIsNotWaitedForAfterAFewImages) {
 
 TEST(ImuInput, AnImuWithoutStampsIsNotWaitedForAfterAFewImages) {
   ImuInput imu;
-  for (int i = 0; i < ImuSyncMonitor::kImages; ++i) {
+  for (int i = 0; i < SensorSyncMonitor::kImages; ++i) {
     imu.add(messageAt(0.0));
     EXPECT_FALSE(imu.waitFor(ns(kStart + kPeriod * i), 0.001));
   }
@@ -123,7 +123,7 @@ TEST(ImuInput, AnImuWithoutStampsIsNotWaitedForAfterAFewImages) {
 TEST(ImuInput, AnImuThatIsAheadIsOutOfStep) {
   ImuInput imu;
   LineTracker tracker(LineTrackerParameters{});
-  for (int i = 0; i < ImuSyncMonitor::kImages; ++i) {
+  for (int i = 0; i < SensorSyncMonitor::kImages; ++i) {
     imu.add(messageAt(kStart + 100.0 + kPeriod * i));
     EXPECT_FALSE(wouldWait(imu, ns(kStart + kPeriod * i))) << "image " << i;
     imu.feed(ns(kStart + kPeriod * i), tracker);

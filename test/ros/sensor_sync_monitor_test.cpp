@@ -1,4 +1,4 @@
-#include "imu_sync_monitor.h"
+#include "sensor_sync_monitor.h"
 
 #include <gtest/gtest.h>
 
@@ -11,34 +11,34 @@ using std::chrono::nanoseconds;
 constexpr std::int64_t kMs = 1000000;
 
 /// A 50 Hz camera with an IMU, driven by hand: image i has the stamp 20 i ms and comes at that time.
-class ImuSyncMonitorTest : public testing::Test {
+class SensorSyncMonitorTest : public testing::Test {
  protected:
-  ImuSyncMonitor::Clock::time_point at(int ms) const { return start_ + milliseconds(ms); }
+  SensorSyncMonitor::Clock::time_point at(int ms) const { return start_ + milliseconds(ms); }
   void missImage(int i, milliseconds lag = milliseconds(100), milliseconds affordable = milliseconds(50)) {
     monitor_.addMissed(20 * i * kMs, lag, affordable, at(20 * i));
   }
   /// The message that image i needs comes `delay_ms` after it.
   void messageFor(int i, int delay_ms) { monitor_.addMessage((20 * i + 1) * kMs, at(20 * i + delay_ms)); }
   void getOutOfStep() {
-    for (int i = 0; i < ImuSyncMonitor::kImages; ++i) missImage(i);
+    for (int i = 0; i < SensorSyncMonitor::kImages; ++i) missImage(i);
     ASSERT_FALSE(monitor_.inStep());
   }
 
-  const ImuSyncMonitor::Clock::time_point start_{std::chrono::seconds(1000)};
-  ImuSyncMonitor monitor_;
+  const SensorSyncMonitor::Clock::time_point start_{std::chrono::seconds(1000)};
+  SensorSyncMonitor monitor_;
 };
 
-TEST_F(ImuSyncMonitorTest, IsOutOfStepAfterAFewImagesInARowWithout) {
-  for (int i = 0; i < ImuSyncMonitor::kImages - 1; ++i) missImage(i);
+TEST_F(SensorSyncMonitorTest, IsOutOfStepAfterAFewImagesInARowWithout) {
+  for (int i = 0; i < SensorSyncMonitor::kImages - 1; ++i) missImage(i);
   EXPECT_TRUE(monitor_.inStep());
-  missImage(ImuSyncMonitor::kImages, milliseconds(123));
+  missImage(SensorSyncMonitor::kImages, milliseconds(123));
   EXPECT_FALSE(monitor_.inStep());
   EXPECT_EQ(monitor_.lag(), nanoseconds(123 * kMs));
 }
 
-TEST_F(ImuSyncMonitorTest, SingleImagesWithoutChangeNothing) {
+TEST_F(SensorSyncMonitorTest, SingleImagesWithoutChangeNothing) {
   for (int i = 0; i < 100; ++i) {
-    if (i % ImuSyncMonitor::kImages == 0) {
+    if (i % SensorSyncMonitor::kImages == 0) {
       monitor_.addCovered();
     } else {
       missImage(i);
@@ -47,9 +47,9 @@ TEST_F(ImuSyncMonitorTest, SingleImagesWithoutChangeNothing) {
   EXPECT_TRUE(monitor_.inStep());
 }
 
-TEST_F(ImuSyncMonitorTest, IsBackWhenMessagesWouldHaveComeInTime) {
+TEST_F(SensorSyncMonitorTest, IsBackWhenMessagesWouldHaveComeInTime) {
   getOutOfStep();
-  for (int i = 10; i < 10 + ImuSyncMonitor::kImages; ++i) {
+  for (int i = 10; i < 10 + SensorSyncMonitor::kImages; ++i) {
     EXPECT_FALSE(monitor_.inStep());
     missImage(i);
     messageFor(i, 10);
@@ -57,16 +57,16 @@ TEST_F(ImuSyncMonitorTest, IsBackWhenMessagesWouldHaveComeInTime) {
   EXPECT_TRUE(monitor_.inStep());
 }
 
-TEST_F(ImuSyncMonitorTest, IsBackWhenMessagesWereThereBeforeTheImages) {
+TEST_F(SensorSyncMonitorTest, IsBackWhenMessagesWereThereBeforeTheImages) {
   getOutOfStep();
-  for (int i = 0; i < ImuSyncMonitor::kImages; ++i) {
+  for (int i = 0; i < SensorSyncMonitor::kImages; ++i) {
     EXPECT_FALSE(monitor_.inStep());
     monitor_.addCovered();
   }
   EXPECT_TRUE(monitor_.inStep());
 }
 
-TEST_F(ImuSyncMonitorTest, StaysOutOfStepWhileMessagesComeLaterThanAnImageCanWait) {
+TEST_F(SensorSyncMonitorTest, StaysOutOfStepWhileMessagesComeLaterThanAnImageCanWait) {
   getOutOfStep();
   for (int i = 10; i < 100; ++i) {
     missImage(i);
@@ -75,25 +75,25 @@ TEST_F(ImuSyncMonitorTest, StaysOutOfStepWhileMessagesComeLaterThanAnImageCanWai
   }
 }
 
-TEST_F(ImuSyncMonitorTest, AnImageThatCouldNotWaitSetsTheTimeThatCounts) {
+TEST_F(SensorSyncMonitorTest, AnImageThatCouldNotWaitSetsTheTimeThatCounts) {
   // Newer images pushed: waits ended after 8 ms, so messages after 10 ms are late.
-  for (int i = 0; i < ImuSyncMonitor::kImages; ++i) missImage(i, milliseconds(10), milliseconds(8));
+  for (int i = 0; i < SensorSyncMonitor::kImages; ++i) missImage(i, milliseconds(10), milliseconds(8));
   for (int i = 10; i < 30; ++i) {
     missImage(i);
     messageFor(i, 10);
   }
   EXPECT_FALSE(monitor_.inStep());
-  for (int i = 30; i < 30 + ImuSyncMonitor::kImages; ++i) {
+  for (int i = 30; i < 30 + SensorSyncMonitor::kImages; ++i) {
     missImage(i);
     messageFor(i, 5);
   }
   EXPECT_TRUE(monitor_.inStep());
 }
 
-TEST_F(ImuSyncMonitorTest, OneLateMessageBeginsTheCountAnew) {
+TEST_F(SensorSyncMonitorTest, OneLateMessageBeginsTheCountAnew) {
   getOutOfStep();
   int i = 10;
-  for (; i < 10 + ImuSyncMonitor::kImages - 1; ++i) {
+  for (; i < 10 + SensorSyncMonitor::kImages - 1; ++i) {
     missImage(i);
     messageFor(i, 10);
   }

@@ -6,10 +6,10 @@
 
 namespace tet_line_tracker {
 
-/// Judges whether the messages of an IMU come early enough for the images. An IMU that fails kImages images
-/// in a row is out of step: images need not wait for it any more. It is in step again when its messages would
-/// have been there in time for kImages images in a row. Not thread-safe.
-class ImuSyncMonitor {
+/// Judges whether the messages of a sensor come early enough for the images. A sensor that fails kImages
+/// images in a row is out of step: images need not wait for it any more. It is in step again when its
+/// messages would have been there in time for kImages images in a row. Not thread-safe.
+class SensorSyncMonitor {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr int kImages = 5;
@@ -25,7 +25,7 @@ class ImuSyncMonitor {
   /// A message with this stamp came.
   void addMessage(std::int64_t stamp_ns, Clock::time_point now);
 
-  /// The lag when the IMU was last found out of step.
+  /// The lag when the sensor was last found out of step.
   std::chrono::nanoseconds lag() const { return lag_; }
 
  private:
