@@ -43,7 +43,7 @@ SequenceBag::SequenceBag(const std::string& path, std::optional<CameraCalibratio
   tf2_msgs::TFMessage message;
   message.transforms.push_back(
       transformMessage(first_stamp, sequence_bag::kImuFrame, sequence_bag::kCameraFrame, *imu_from_camera_));
-  writer_.write(sequence_bag::kStaticTfTopic, first_stamp, message);
+  writer_.write(sequence_bag::kStaticTfTopic, first_stamp, message, true);
 }
 
 void SequenceBag::writeImage(const ros::Time& stamp, const cv::Mat& image) {
