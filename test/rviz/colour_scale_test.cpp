@@ -1,5 +1,6 @@
 #include "colour_scale.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -71,6 +72,13 @@ TEST(ColourScale, TellsIdsThatFollowEachOtherApart) {
         EXPECT_GT(distance(colourOfId(id), colourOfId(other)), 0.15F) << id << " and " << other;
       }
     }
+  }
+}
+
+TEST(ColourScale, GivesEveryIdABrightColour) {
+  for (std::uint64_t id = 0; id < 100; ++id) {
+    const Colour colour = colourOfId(id);
+    EXPECT_EQ(std::max({colour.red, colour.green, colour.blue}), 1.0F) << id;
   }
 }
 

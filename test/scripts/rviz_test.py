@@ -166,7 +166,9 @@ class Rviz(unittest.TestCase):
             content = yaml.safe_load(file)
         shown = [each for each in content['Visualization Manager']['Displays'] if each['Class'].startswith('tet_line_tracker/')]
         for each in shown:
-            each['Line Width'] = 0.1  # enough pixels to count
+            # Enough pixels to count, of the colours below.
+            each['Line Width'] = 0.1
+            each['Alpha'] = 1
         content['Visualization Manager']['Displays'] = shown
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
