@@ -65,7 +65,6 @@ class Session:
         self.size = (width, height)
         self.children = []
         self.folder = tempfile.TemporaryDirectory(prefix='rviz_session_')
-        self.log = os.path.join(self.folder.name, 'rviz.log')
         self.environment = dict(os.environ, ROS_HOSTNAME='localhost', QT_X11_NO_MITSHM='1', XDG_RUNTIME_DIR=self.folder.name,
                                 ROS_LOG_DIR=self.folder.name)
 
@@ -118,7 +117,8 @@ class Session:
         self.wait(lambda: self.subscribers() is not None, 'the master did not answer')
 
     def start_rviz(self, config, *options):
-        self.start('rosrun', 'rviz', 'rviz', '-d', config, *options)
+        # rviz remembers the configurations that were open, in the home folder.
+        self.start('env', 'HOME=' + self.folder.name, 'rosrun', 'rviz', 'rviz', '-d', config, *options)
 
     def subscribers(self):
         """Topics with the nodes that subscribe to them; None when there is no master."""
@@ -133,7 +133,7 @@ class Session:
 
     def messages(self):
         """What rviz wrote."""
-        with open(os.path.join(self.folder.name, 'rosrun.log'), errors='replace') as file:
+        with open(os.path.join(self.folder.name, 'env.log'), errors='replace') as file:
             return re.sub(r'\x1b\[[0-9;]*m', '', file.read())
 
     def picture(self):
