@@ -36,8 +36,14 @@ configured() { grep -qs "^$1:[A-Z]*=ON" "$build/CMakeCache.txt"; }
 if $tests && ! configured CATKIN_ENABLE_TESTING; then options+=(-DCATKIN_ENABLE_TESTING=ON); fi
 if [ "${CI:-}" = true ] && ! configured TET_WARNINGS_AS_ERRORS; then options+=(-DTET_WARNINGS_AS_ERRORS=ON); fi
 
+# CMake leaves the displays of rviz out where these are missing, and does not look again by itself.
+displays=false
+if grep -qsE '^(Qt5|rviz)_DIR:PATH=.*-NOTFOUND$' "$build/CMakeCache.txt" && areInstalled "${packages_displays[@]}"; then
+  displays=true
+fi
+
 # A first configure that failed leaves a cache but nothing to build from.
-if [ ${#options[@]} -gt 0 ] || ! compgen -G "$build/build.ninja" >/dev/null && ! compgen -G "$build/Makefile" >/dev/null; then
+if [ ${#options[@]} -gt 0 ] || $displays || ! compgen -G "$build/build.ninja" >/dev/null && ! compgen -G "$build/Makefile" >/dev/null; then
   cmake -S . -B "$build" "${options[@]}" >"$build/configure.log" 2>&1 ||
     { cat "$build/configure.log" >&2; fail "CMake could not configure the project"; }
 fi

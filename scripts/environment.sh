@@ -42,6 +42,10 @@ if [ -e /opt/ros/noetic/setup.bash ]; then
   export PATH=/usr/sbin:/usr/bin:/sbin:/bin:$PATH
 fi
 
+areInstalled() {
+  [ "$(dpkg-query -W -f='${db:Status-Status}\n' "$@" 2>/dev/null | grep -cx installed)" = $# ]
+}
+
 # Installs those of the named Debian packages that are missing. Name all that a script needs at once, so that the line
 # which is printed where there is no sudo is the whole of it.
 requirePackages() {

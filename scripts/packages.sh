@@ -1,5 +1,6 @@
-# Debian packages by purpose: build, run (what README and the demo without a display start), rviz, test, lint, benchmark, core (the
-# core alone), fresh_root (test_core.sh --fresh-root). Sourced by environment.sh.
+# Debian packages by purpose: build, run (what README and the demo without a display start), displays (what builds the
+# displays of rviz), rviz, test, lint, benchmark, core (the core alone), fresh_root (test_core.sh --fresh-root). Sourced by
+# environment.sh.
 
 packages_core=(cmake g++ libeigen3-dev libgtest-dev libopencv-dev libyaml-cpp-dev ninja-build)
 packages_fresh_root=(debootstrap)
@@ -13,8 +14,10 @@ if [ -e /opt/ros/noetic/setup.bash ]; then
     ros-noetic-std-srvs ros-noetic-tf2-msgs ros-noetic-tf2-ros ros-noetic-visualization-msgs)
   packages_run=(ros-noetic-rosbash ros-noetic-roslaunch ros-noetic-rosnode ros-noetic-rosout ros-noetic-rosservice
     ros-noetic-rostopic)
-  packages_rviz=(ros-noetic-rviz)
-  packages_test=(libgtest-dev ros-noetic-roslaunch ros-noetic-rostest ros-noetic-rosunit ros-noetic-rviz)
+  packages_displays=(qtbase5-dev ros-noetic-rviz)
+  packages_rviz=("${packages_displays[@]}")
+  packages_test=("${packages_displays[@]}" libgl1-mesa-dri libgtest-dev python3-yaml ros-noetic-roslaunch ros-noetic-rostest
+    ros-noetic-rosunit xvfb)
   packages_lint=(clang-format clang-tidy python3-catkin-lint)
   packages_benchmark=(libbenchmark-dev)
   packages_plot=(python3-matplotlib)
@@ -27,8 +30,9 @@ else
     ros-message-generation ros-nav-msgs ros-sensor-msgs ros-std-msgs ros-std-srvs ros-tf2-msgs ros-visualization-msgs)
   packages_run=(libnodeletlib-tools python3-diagnostic-msgs python3-nav-msgs python3-rosbag python3-roslaunch python3-rosnode python3-rosservice
     python3-rostopic python3-sensor-msgs python3-std-srvs python3-tf2-msgs python3-visualization-msgs rosbash rosout tf2-tools)
-  packages_rviz=(libgl1-mesa-dri rviz)
-  packages_test=(libgtest-dev librostest-dev python3-rostest rviz)
+  packages_displays=(librviz-dev qtbase5-dev)
+  packages_rviz=("${packages_displays[@]}" libgl1-mesa-dri rviz)
+  packages_test=("${packages_rviz[@]}" libgtest-dev librostest-dev python3-rostest python3-yaml xvfb)
   packages_lint=(catkin-lint clang-format clang-tidy)
   packages_benchmark=(libbenchmark-dev)
   packages_plot=(python3-matplotlib)

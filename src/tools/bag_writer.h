@@ -8,6 +8,7 @@
 #include <ros/time.h>
 #include <rosbag/bag.h>
 #include <rosbag/message_instance.h>
+#include <boost/make_shared.hpp>
 
 #include "output_file.h"
 
@@ -23,12 +24,13 @@ class BagWriter {
   BagWriter(const BagWriter&) = delete;
   BagWriter& operator=(const BagWriter&) = delete;
 
-  /// Throws std::runtime_error with the reason when the message cannot be written (disk full).
+  /// Of a `latched` topic, who subscribes while the bag is played is given the last message. Throws
+  /// std::runtime_error with the reason when the message cannot be written (disk full).
   template <class Message>
-  void write(const std::string& topic, const ros::Time& stamp, const Message& message) {
+  void write(const std::string& topic, const ros::Time& stamp, const Message& message, bool latched = false) {
     errno = 0;
     try {
-      bag_->write(topic, stamp, message);
+      bag_->write(topic, stamp, message, latched ? latchedConnection(message) : nullptr);
     } catch (const std::exception& error) {
       output_.fail(topic + ": " + error.what());
     }
@@ -42,6 +44,17 @@ class BagWriter {
   void close();
 
  private:
+  /// rosbag takes a header as it is given, so that it has to hold all that players ask for.
+  template <class Message>
+  static boost::shared_ptr<ros::M_string> latchedConnection(const Message& message) {
+    namespace traits = ros::message_traits;
+    return boost::make_shared<ros::M_string>(
+        ros::M_string{{"latching", "1"},
+                      {"type", traits::datatype(message)},
+                      {"md5sum", traits::md5sum(message)},
+                      {"message_definition", traits::definition(message)}});
+  }
+
   TemporaryOutput output_;
   std::unique_ptr<rosbag::Bag> bag_;
 };

@@ -51,7 +51,9 @@ SequenceBag::SequenceBag(const std::string& path, std::optional<CameraCalibratio
     message.transforms.push_back(transformMessage(first_stamp, sequence_bag::kCameraFrame,
                                                   sequence_bag::kBodyFrame, *camera_from_body));
   }
-  if (!message.transforms.empty()) writer_.write(sequence_bag::kStaticTfTopic, first_stamp, message);
+  if (!message.transforms.empty()) {
+    writer_.write(sequence_bag::kStaticTfTopic, first_stamp, message, true);
+  }
 }
 
 void SequenceBag::writeImage(const ros::Time& stamp, const cv::Mat& image) {

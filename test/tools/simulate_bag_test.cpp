@@ -43,6 +43,22 @@ TEST(SimulateBag, GivesTheSameBytesForTheSameArgumentsWhateverTheNumberOfThreads
   EXPECT_NE(bytesOf(one), bytesOf(other));
 }
 
+TEST(SimulateBag, LatchesStaticTransformsForThoseWhoCouldNotSubscribeInTime) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "slow.bag";
+  const ToolRun run = runTool("simulate_bag", {path, "--seconds", "0.2"});
+  ASSERT_EQ(run.status, 0) << run.errors;
+  rosbag::Bag bag(path, rosbag::bagmode::Read);
+  const auto connections = rosbag::View(bag, rosbag::TopicQuery("/tf_static")).getConnections();
+  ASSERT_EQ(connections.size(), 1U);
+  ros::M_string& header = *connections[0]->header;
+  EXPECT_EQ(header["latching"], "1");
+  // Players take these from there.
+  EXPECT_EQ(header["type"], "tf2_msgs/TFMessage");
+  EXPECT_EQ(header["md5sum"], ros::message_traits::md5sum<tf2_msgs::TFMessage>());
+  EXPECT_NE(header["message_definition"], "");
+}
+
 TEST(SimulateBag, HoldsAllThatTheJudgeAndAnEstimatorNeed) {
   const TemporaryFolder folder;
   const std::string bag = folder.path() / "slow.bag";
