@@ -1,6 +1,7 @@
 #include "pl_vins_pairing.h"
 
 #include <cmath>
+#include <limits>
 #include <unordered_set>
 #include <utility>
 
@@ -12,9 +13,13 @@ namespace {
 /// Messages of lines that are kept for point messages still to come: 10 s at 50 Hz.
 constexpr std::size_t kMaxKept = 500;
 
+/// Whether the estimator's floats hold the endpoints.
 bool isFinite(const Line& line) {
-  return std::isfinite(line.start_normalized[0]) && std::isfinite(line.start_normalized[1]) &&
-         std::isfinite(line.end_normalized[0]) && std::isfinite(line.end_normalized[1]);
+  const auto fits = [](double value) {
+    return std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max());
+  };
+  return fits(line.start_normalized[0]) && fits(line.start_normalized[1]) && fits(line.end_normalized[0]) &&
+         fits(line.end_normalized[1]);
 }
 
 /// Whether `next`, whose stamp is before that of `lines`, comes from a stream that began after it and is not

@@ -234,6 +234,20 @@ TEST(PlVinsPairing, LeavesOutWhatAnEstimatorCannotUse) {
   EXPECT_EQ(pairing.counts().lines_over_limit, 1U);
 }
 
+TEST(PlVinsPairing, LeavesOutLinesThatFloatsDoNotHold) {
+  for (const double value : {std::numeric_limits<double>::infinity(), 1e39, -1e300}) {
+    PlVinsPairing pairing(followingPoints());
+    FakeTracker tracker;
+    for (int i = 0; i < 3; ++i) tracker.add();
+    const auto lines = tracker.image(0.0);
+    lines->lines[0].start_normalized[1] = lines->lines[2].end_normalized[0] = value;
+    pairing.addLines(lines);
+    pairing.addPoints(pointsAt(0.0), 0.0);
+    EXPECT_EQ(pairing.take(0.0).at(0)->points.size(), 1U) << value;
+    EXPECT_EQ(pairing.counts().lines_not_in_front, 2U) << value;
+  }
+}
+
 TEST(PlVinsPairing, StartsAgainWhenABagDoes) {
   PlVinsPairing pairing(followingPoints());
   FakeTracker tracker;
