@@ -82,6 +82,10 @@ TEST_F(NodeletFaults, EveryAbsurdCalibrationIsRefusedWithASentenceAndTrackingGoe
   absurd.back().K[2] = 1e9;
   absurd.push_back(scene::cameraInfo(kStart));
   absurd.back().width = absurd.back().height = 4294967295U;
+  absurd.push_back(scene::cameraInfo(kStart));
+  absurd.back().binning_x = 4294967295U;
+  absurd.push_back(scene::cameraInfo(kStart));
+  absurd.back().roi.x_offset = absurd.back().roi.width = 4294967295U;
   for (std::size_t i = 0; i < absurd.size(); ++i) {
     stream_->send(scene::cameraInfo(kStart));
     ASSERT_TRUE(becomesNormalized(true)) << "before " << i;
@@ -96,6 +100,27 @@ TEST_F(NodeletFaults, EveryAbsurdCalibrationIsRefusedWithASentenceAndTrackingGoe
     return stream_->summary.find("not calibrated") != std::string::npos &&
            stream_->diagnostics["calibration"].rfind("camera_info cannot be used", 0) == 0;
   })) << stream_->summary;
+}
+
+TEST_F(NodeletFaults, ACalibrationOfTheFullImageIsTakenThroughBinningAndRegionOfInterest) {
+  start("binned");
+  sensor_msgs::CameraInfo info = scene::cameraInfo(kStart);
+  info.width = 2 * scene::kWidth + 50;
+  info.height = 2 * scene::kHeight;
+  info.binning_x = info.binning_y = 2;
+  info.roi.x_offset = 50;
+  info.roi.width = 2 * scene::kWidth;
+  info.roi.height = 2 * scene::kHeight;
+  info.K = {2 * scene::kFocal, 0, scene::kWidth + 50.0, 0, 2 * scene::kFocal, 1.0 * scene::kHeight, 0, 0, 1};
+  stream_->send(info);
+  ASSERT_TRUE(becomesNormalized(true));
+  const Line& line = stream_->lines.back().lines[0];
+  EXPECT_NEAR(line.start_normalized[0], (line.start_px[0] - scene::kWidth / 2.0) / scene::kFocal, 1e-6);
+  EXPECT_NEAR(line.end_normalized[1], (line.end_px[1] - scene::kHeight / 2.0) / scene::kFocal, 1e-6);
+  EXPECT_TRUE(waitFor([&] {
+    return stream_->diagnostics["calibration"] ==
+           "plumb_bob, 320x240 (690x480, region of interest 640x480 at (50, 0), binning 2x2)";
+  })) << stream_->diagnostics["calibration"];
 }
 
 TEST_F(NodeletFaults, ImuMessagesThatNoGyroscopeSendsCostNoImageAndNoLine) {
