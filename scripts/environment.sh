@@ -97,17 +97,20 @@ requireLocalhost() {
     fail "the name localhost does not resolve, and ROS needs it: add the line '127.0.0.1 localhost' to /etc/hosts"
 }
 
-# Builds the named targets with sanitizers.
+# Builds the named targets with the sanitizers that `sanitizers` names, in a folder of their own.
+sanitizers=address,undefined
 sanitized=$build/sanitized
 buildSanitized() {
   requirePackages "${packages_build[@]}" "${packages_test[@]}"
+  if [ "$sanitizers" = thread ]; then sanitized=$build/sanitized_thread; fi
   mkdir -p "$sanitized/devel/lib/python3/dist-packages"
   if [ ! -e "$sanitized/build.ninja" ]; then
-    local launcher=()
+    local launcher=() more=
+    if [ "$sanitizers" != thread ]; then more="-fno-sanitize-recover=undefined "; fi
     if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
     cmake -S . -B "$sanitized" -G Ninja -DCMAKE_BUILD_TYPE=None -DCATKIN_ENABLE_TESTING=ON -DTET_FUZZ=ON "${launcher[@]}" \
-      -DCMAKE_CXX_FLAGS="-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer" \
-      >"$build/sanitized/configure.log" 2>&1 || { cat "$sanitized/configure.log" >&2; fail "CMake could not configure the sanitized build"; }
+      -DCMAKE_CXX_FLAGS="-O1 -g1 -fsanitize=$sanitizers $more-fno-omit-frame-pointer" \
+      >"$sanitized/configure.log" 2>&1 || { cat "$sanitized/configure.log" >&2; fail "CMake could not configure the sanitized build"; }
   fi
   cmake --build "$sanitized" --target "$@"
   export UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1

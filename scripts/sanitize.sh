@@ -1,18 +1,72 @@
 #!/usr/bin/env bash
-# Builds the tests of the core with AddressSanitizer and UndefinedBehaviorSanitizer in build/sanitized and runs them.
+# Builds tests with sanitizers and runs them; a test that fails and anything that a sanitizer finds is an error.
 #
-#   scripts/sanitize.sh [TEST ...]
+#   scripts/sanitize.sh [--ros | --thread] [TEST ...]
 #
-# TEST: names of test programs of the core; none: all in test/core but that of the installed package, which runs a compiler.
+# AddressSanitizer and UndefinedBehaviorSanitizer over the tests of the core, or with --ros over those of test/ros with the
+# managers of their nodelets. --thread: ThreadSanitizer over what runs in several threads. TEST: names of test programs;
+# none: all of the core (but that of the installed package, which runs a compiler), of test/ros, or those with threads.
 set -euo pipefail
 . "$(dirname "$0")/environment.sh"
 
+part=core
+case ${1:-} in
+  --ros | --thread) part=${1#--} && shift ;;
+esac
 answerHelp "$@"
 tests=("$@")
-if [ ${#tests[@]} -eq 0 ]; then mapfile -t tests < <(basename -s .cpp test/core/*/*.cpp | grep -v core_package_test); fi
-buildSanitized "${tests[@]}"
+if [ ${#tests[@]} -eq 0 ]; then
+  case $part in
+    core) mapfile -t tests < <(basename -s .cpp test/core/*/*_test.cpp | grep -v core_package_test) ;;
+    # Launch files of the package and programs start programs of the build without sanitizers.
+    ros) mapfile -t tests < <(basename -s .cpp test/ros/*_test.cpp | grep -v -e euroc_launch_test -e line_subscriber_test) ;;
+    thread) tests=(line_tracker_test newest_queue_test sensor_input_test silence_warning_test master_loss_test line_mapper_nodelet_test
+      pl_vins_bridge_test sim_time_test nodelet_life_test nodelet_test) ;;
+  esac
+fi
+
+runtime=libasan.so
+if [ $part = thread ]; then
+  sanitizers=thread
+  runtime=libtsan.so
+fi
+targets=("${tests[@]}")
+if [ $part != core ]; then targets+=(tet_line_tracker_nodelets line_tracker); fi
+buildSanitized "${targets[@]}"
+
+reports=$sanitized/reports
+rm -rf "$reports"
+mkdir -p "$reports"
+if [ $part != core ]; then
+  requirePackages "${packages_run[@]}" "${packages_test[@]}"
+  requireLocalhost
+  sourceSetup "$sanitized/devel/setup.bash"
+  # The manager is not built here: it needs the runtime before everything else. Python and roslaunch go without.
+  TET_MANAGER_PREFIX="env LD_PRELOAD=$(gcc -print-file-name=$runtime)"
+  # Leaks are those of the class loader and of log4cxx at the end; soak.sh watches the memory of the node.
+  ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1:log_path=$reports/address
+  UBSAN_OPTIONS=print_stacktrace=1:log_path=$reports/undefined
+  if [ $part = thread ]; then
+    # The runtime of GCC does not know the layout of addresses of newer kernels.
+    TET_MANAGER_PREFIX+=" setarch -R"
+    TSAN_OPTIONS="suppressions=$project/scripts/thread_sanitizer.supp history_size=7 exitcode=0 log_path=$reports/thread"
+    export TSAN_OPTIONS
+  fi
+  export TET_MANAGER_PREFIX
+fi
+
+status=0
 for test in "${tests[@]}"; do
   echo "$test ..."
-  "$sanitized/devel/lib/tet_line_tracker/$test" --gtest_brief=1 </dev/null
+  if [ -e "test/ros/$test.test" ]; then
+    rostest --pkgdir="$project" --package=tet_line_tracker --results-base-dir="$sanitized/test_results" "test/ros/$test.test" \
+      >"$reports/$test.txt" 2>&1 </dev/null || { tail -n 40 "$reports/$test.txt"; status=1; }
+  elif [ $part = thread ]; then
+    setarch -R "$sanitized/devel/lib/tet_line_tracker/$test" --gtest_brief=1 </dev/null || status=1
+  else
+    "$sanitized/devel/lib/tet_line_tracker/$test" --gtest_brief=1 </dev/null || status=1
+  fi
 done
+python3 scripts/sanitizer_reports.py "$reports" "$sanitized" || status=1
+[ $status = 0 ] || fail "a test failed or a sanitizer found something"
 echo "sanitizers: ${#tests[@]} test programs, nothing found"

@@ -15,6 +15,8 @@ bool sameNumber(double a, double b) {
 
 bool same(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b) {
   return a.distortion_model == b.distortion_model && a.width == b.width && a.height == b.height &&
+         a.binning_x == b.binning_x && a.binning_y == b.binning_y && a.roi.x_offset == b.roi.x_offset &&
+         a.roi.y_offset == b.roi.y_offset && a.roi.width == b.roi.width && a.roi.height == b.roi.height &&
          std::equal(a.K.begin(), a.K.end(), b.K.begin(), b.K.end(), sameNumber) &&
          std::equal(a.D.begin(), a.D.end(), b.D.begin(), b.D.end(), sameNumber);
 }
@@ -51,8 +53,7 @@ std::string CalibrationInput::state() const {
   if (!choice_.camera) return choice_.problem;
   if (!size_problem_.empty()) return size_problem_;
   const std::string& model = info_->distortion_model;
-  return (model.empty() ? "no distortion" : model) + ", " + std::to_string(info_->width) + "x" +
-         std::to_string(info_->height);
+  return (model.empty() ? "no distortion" : model) + ", " + imageText(*info_);
 }
 
 }  // namespace tet_line_tracker

@@ -16,17 +16,74 @@ std::string sizeText(std::uint32_t width, std::uint32_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
+/// What the sensor reads out along one axis [px of the full image].
+struct Readout {
+  std::uint32_t full;     ///< side of the full image; 0: not said
+  std::uint32_t offset;   ///< where the region of interest begins
+  std::uint32_t region;   ///< its side; 0: the rest
+  std::uint32_t binning;  ///< 0 and 1: none
+
+  std::uint32_t pixelsPerPixel() const { return std::max(binning, 1U); }
+  /// Side of the image that comes; 0: not said.
+  std::uint32_t side() const {
+    const std::uint32_t rest = full > offset ? full - offset : 0;
+    return (region != 0 ? region : rest) / pixelsPerPixel();
+  }
+  double focalLength(double of_full) const { return of_full / pixelsPerPixel(); }
+  double centre(double of_full) const { return (of_full - offset) / pixelsPerPixel(); }
+  bool isInside() const { return full == 0 || std::uint64_t{offset} + std::max(region, 1U) <= full; }
+  bool leavesNothing() const { return (full != 0 || region != 0) && side() == 0; }
+};
+
+Readout across(const sensor_msgs::CameraInfo& info) {
+  return {info.width, info.roi.x_offset, info.roi.width, info.binning_x};
+}
+
+Readout down(const sensor_msgs::CameraInfo& info) {
+  return {info.height, info.roi.y_offset, info.roi.height, info.binning_y};
+}
+
+/// How the image comes from the full one, for people; empty: it is the full one.
+std::string readoutText(const sensor_msgs::CameraInfo& info) {
+  const Readout x = across(info);
+  const Readout y = down(info);
+  std::string text;
+  if (x.offset != 0 || y.offset != 0 || x.region != 0 || y.region != 0) {
+    text += ", region of interest " + sizeText(x.region, y.region) + " at (" + std::to_string(x.offset) +
+            ", " + std::to_string(y.offset) + ")";
+  }
+  if (x.pixelsPerPixel() != 1 || y.pixelsPerPixel() != 1) {
+    text += ", binning " + sizeText(x.pixelsPerPixel(), y.pixelsPerPixel());
+  }
+  return text.empty() ? text : " (" + sizeText(info.width, info.height) + text + ")";
+}
+
+/// Why binning and region of interest cannot be meant; empty when they can.
+std::string readoutProblem(const sensor_msgs::CameraInfo& info) {
+  const Readout x = across(info);
+  const Readout y = down(info);
+  if (!x.isInside() || !y.isInside()) {
+    return "its region of interest is not inside the full image" + readoutText(info);
+  }
+  if (x.leavesNothing() || y.leavesNothing()) {
+    return "its binning leaves no pixel of the image" + readoutText(info);
+  }
+  return {};
+}
+
 }  // namespace
 
 CameraCalibration fromCameraInfo(const sensor_msgs::CameraInfo& info) {
   CameraCalibration calibration;
   calibration.model = info.distortion_model;
-  calibration.width = saturated(info.width);
-  calibration.height = saturated(info.height);
-  calibration.fx = info.K[0];
-  calibration.fy = info.K[4];
-  calibration.cx = info.K[2];
-  calibration.cy = info.K[5];
+  const Readout x = across(info);
+  const Readout y = down(info);
+  calibration.width = saturated(x.side());
+  calibration.height = saturated(y.side());
+  calibration.fx = x.focalLength(info.K[0]);
+  calibration.fy = y.focalLength(info.K[4]);
+  calibration.cx = x.centre(info.K[2]);
+  calibration.cy = y.centre(info.K[5]);
   calibration.distortion = info.D;
   return calibration;
 }
@@ -45,6 +102,8 @@ sensor_msgs::CameraInfo toCameraInfo(const CameraCalibration& calibration) {
 
 CameraChoice chooseCamera(const sensor_msgs::CameraInfo& info) {
   if (info.K[0] == 0.0) return {nullptr, "the camera is not calibrated (K[0] of camera_info is 0)"};
+  const std::string problem = readoutProblem(info);
+  if (!problem.empty()) return {nullptr, "camera_info cannot be used: " + problem};
   try {
     return {makeCameraModel(fromCameraInfo(info)), {}};
   } catch (const std::invalid_argument& error) {
@@ -60,10 +119,15 @@ CameraChoice chooseCamera(const sensor_msgs::CameraInfo& info, std::uint32_t wid
 }
 
 std::string sizeProblem(const sensor_msgs::CameraInfo& info, std::uint32_t width, std::uint32_t height) {
-  const bool fits = (info.width == 0 || info.width == width) && (info.height == 0 || info.height == height);
-  if (fits) return {};
-  return "camera_info is for images of " + sizeText(info.width, info.height) + ", the images have " +
+  const std::uint32_t wide = across(info).side();
+  const std::uint32_t high = down(info).side();
+  if ((wide == 0 || wide == width) && (high == 0 || high == height)) return {};
+  return "camera_info is for images of " + sizeText(wide, high) + readoutText(info) + ", the images have " +
          sizeText(width, height);
+}
+
+std::string imageText(const sensor_msgs::CameraInfo& info) {
+  return sizeText(across(info).side(), down(info).side()) + readoutText(info);
 }
 
 }  // namespace tet_line_tracker

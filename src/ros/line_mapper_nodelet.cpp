@@ -11,6 +11,7 @@
 #include "map_messages.h"
 #include "messages.h"
 #include "node_parameters.h"
+#include "throttled_warning.h"
 
 namespace tet_line_tracker {
 /// Lines and the poses of their camera in, a map of lines out: see LineMapper. Callbacks run one after the
@@ -62,9 +63,11 @@ class LineMapperNodelet : public nodelet::Nodelet {
         break;
       } else {
         ++without_pose_;
-        NODELET_WARN_THROTTLE(
-            5.0, "%lu images had no pose within %g s and are not in the map; the last one: %s",
-            static_cast<unsigned long>(without_pose_), parameters_.tf_timeout, pose.problem.c_str());
+        if (pose_warning_.isDue()) {
+          NODELET_WARN("%lu images had no pose within %g s and are not in the map; the last one: %s",
+                       static_cast<unsigned long>(without_pose_), parameters_.tf_timeout,
+                       pose.problem.c_str());
+        }
       }
       waiting_.pop_front();
     }
@@ -94,6 +97,7 @@ class LineMapperNodelet : public nodelet::Nodelet {
   std_msgs::Header header_;  ///< of the next map
   bool changed_{false};      ///< since the last map
   std::uint64_t without_pose_{0};
+  ThrottledWarning pose_warning_{std::chrono::seconds(5)};
   std::deque<Waiting> waiting_;
   tf2_ros::Buffer transforms_;
   std::unique_ptr<tf2_ros::TransformListener> listener_;

@@ -60,23 +60,27 @@ void LineTrackerNodelet::advertise() {
 void LineTrackerNodelet::subscribe() {
   ros::NodeHandle& node = getNodeHandle();
   ros::NodeHandle& private_node = getPrivateNodeHandle();
+  const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
+  const image_transport::TransportHints hints("raw", no_delay, private_node);
+  // Before any callback, which may come while its subscriber is not assigned yet.
+  image_topic_ = node.resolveName("image");
+  if (hints.getTransport() != "raw") image_topic_ += "/" + hints.getTransport();
+  camera_info_topic_ = node.resolveName("camera_info");
+  imu_.topic = node.resolveName("imu");
+  odometry_.topic = node.resolveName("odometry");
   reset_server_ = private_node.advertiseService("reset", &LineTrackerNodelet::onReset, this);
   camera_info_subscriber_ =
       node.subscribe("camera_info", kCameraInfoQueue, &LineTrackerNodelet::onCameraInfo, this);
   // Also when no parameter asks for them: players of bags wait until every topic is taken.
   tf_listener_ = std::make_unique<tf2_ros::TransformListener>(tf_buffer_, node);
-  const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   imu_subscriber_ = node.subscribe("imu", kMotionQueue, &LineTrackerNodelet::onImu, this, no_delay);
   odometry_subscriber_ =
       node.subscribe("odometry", kMotionQueue, &LineTrackerNodelet::onOdometry, this, no_delay);
-  imu_.topic = imu_subscriber_.getTopic();
-  odometry_.topic = odometry_subscriber_.getTopic();
-  const image_transport::TransportHints hints("raw", no_delay, private_node);
   image_subscriber_ = image_transport::ImageTransport(node).subscribe(
       "image", kTransportQueue, &LineTrackerNodelet::onImage, this, hints);
   // The wall clock: simulated time stands still exactly when there is something to warn of.
   timer_ = node.createWallTimer(ros::WallDuration(1.0), &LineTrackerNodelet::onTimer, this);
-  NODELET_INFO("tracks lines of %s (%s), method %s, detector %s", image_subscriber_.getTopic().c_str(),
+  NODELET_INFO("tracks lines of %s (%s), method %s, detector %s", image_topic_.c_str(),
                image_subscriber_.getTransport().c_str(), tracker_parameters_.method.c_str(),
                tracker_->detectorName().c_str());
   for (const std::string& note : tracker_->notes()) NODELET_WARN("%s", note.c_str());
@@ -91,7 +95,7 @@ void LineTrackerNodelet::onImage(const sensor_msgs::ImageConstPtr& image) {
 
 void LineTrackerNodelet::onCameraInfo(const sensor_msgs::CameraInfoConstPtr& info) {
   if (const auto warning = calibration_.update(*info)) {
-    NODELET_WARN("%s: %s", camera_info_subscriber_.getTopic().c_str(), warning->c_str());
+    NODELET_WARN("%s: %s", camera_info_topic_.c_str(), warning->c_str());
   }
 }
 
@@ -118,13 +122,13 @@ void LineTrackerNodelet::onTimer(const ros::WallTimerEvent&) {
   const double silence = diagnostics_.secondsWithoutImage();
   if (const auto topics = silence_warning_->update(silence >= StreamDiagnostics::kSilence)) {
     NODELET_WARN("no image for %.0f s on %s (publishers: %u); topics with images: %s", silence,
-                 image_subscriber_.getTopic().c_str(), image_subscriber_.getNumPublishers(), topics->c_str());
+                 image_topic_.c_str(), image_subscriber_.getNumPublishers(), topics->c_str());
   }
 }
 
 void LineTrackerNodelet::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) {
   StreamDiagnostics::Setup setup;
-  setup.image_topic = image_subscriber_.getTopic();
+  setup.image_topic = image_topic_;
   setup.detector = tracker_->detectorName();
   setup.calibration = calibration_.state();
   setup.calibrated = calibrated_;
@@ -162,7 +166,7 @@ void LineTrackerNodelet::track(const sensor_msgs::Image& image) {
   const auto stamp_ns = static_cast<std::int64_t>(image.header.stamp.toNSec());
   const CalibrationInput::Model model = calibration_.modelFor(gray.cols, gray.rows);
   if (model.warning) {
-    NODELET_WARN("%s: %s", camera_info_subscriber_.getTopic().c_str(), model.warning->c_str());
+    NODELET_WARN("%s: %s", camera_info_topic_.c_str(), model.warning->c_str());
   }
   calibrated_ = model.camera != nullptr;
   checkMask(gray.cols, gray.rows);
@@ -244,7 +248,7 @@ void LineTrackerNodelet::checkMask(int width, int height) {
 void LineTrackerNodelet::drop(DropReason reason, const std::string& sentence) {
   const std::uint64_t count = diagnostics_.addDropped(reason);
   if (!drop_warnings_[static_cast<std::size_t>(reason)].isDue()) return;
-  NODELET_ERROR("image of %s dropped (%llu so far): %s", image_subscriber_.getTopic().c_str(),
+  NODELET_ERROR("image of %s dropped (%llu so far): %s", image_topic_.c_str(),
                 static_cast<unsigned long long>(count), sentence.c_str());
 }
 

@@ -80,6 +80,7 @@ class LineTrackerNodelet : public nodelet::Nodelet {
   void checkMask(int width, int height);
   void drop(DropReason reason, const std::string& sentence);
 
+  std::string image_topic_, camera_info_topic_;
   LineTrackerParameters tracker_parameters_;
   NodeParameters parameters_;
 

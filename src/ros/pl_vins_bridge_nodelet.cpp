@@ -29,8 +29,12 @@ class PlVinsBridgeNodelet : public nodelet::Nodelet {
     publisher_ = node.advertise<sensor_msgs::PointCloud>(topics.output, kQueue);
     deadline_ = node.createWallTimer(
         ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { send(); }, true, false);
-    report_ = node.createWallTimer(ros::WallDuration(1.0),
-                                   [this](const ros::WallTimerEvent&) { updater_->update(); });
+    report_ = node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
+      if (points_ && points_.getNumPublishers() == 0) {
+        pairing_->addNoPublisher(ros::SteadyTime::now().toSec());
+      }
+      updater_->update();
+    });
     const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
     lines_ = node.subscribe<LineArray>(
         "lines", kQueue,

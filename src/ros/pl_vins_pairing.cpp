@@ -1,6 +1,7 @@
 #include "pl_vins_pairing.h"
 
 #include <cmath>
+#include <limits>
 #include <unordered_set>
 #include <utility>
 
@@ -12,9 +13,13 @@ namespace {
 /// Messages of lines that are kept for point messages still to come: 10 s at 50 Hz.
 constexpr std::size_t kMaxKept = 500;
 
+/// Whether the estimator's floats hold the endpoints.
 bool isFinite(const Line& line) {
-  return std::isfinite(line.start_normalized[0]) && std::isfinite(line.start_normalized[1]) &&
-         std::isfinite(line.end_normalized[0]) && std::isfinite(line.end_normalized[1]);
+  const auto fits = [](double value) {
+    return std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max());
+  };
+  return fits(line.start_normalized[0]) && fits(line.start_normalized[1]) && fits(line.end_normalized[0]) &&
+         fits(line.end_normalized[1]);
 }
 
 /// Whether `next`, whose stamp is before that of `lines`, comes from a stream that began after it and is not
@@ -84,11 +89,32 @@ void PlVinsPairing::addLines(const LineArray::ConstPtr& lines) {
 
 void PlVinsPairing::addPoints(const std_msgs::Header& header, double now_s) {
   ++counts_.points;
-  // A publisher counts its messages from 0 or 1, also those that nobody heard.
-  const std::uint32_t next = last_sequence_ ? *last_sequence_ + 1 : 1;
-  if (header.seq > next) counts_.points_missed += header.seq - next;
-  last_sequence_ = header.seq;
+  countMissedPoints(header, now_s);
   if (followsPoints()) waiting_.push_back({header.stamp, now_s + parameters_.max_wait});
+}
+
+void PlVinsPairing::addNoPublisher(double now_s) {
+  no_publisher_s_ = now_s;
+  last_sequence_.reset();
+  first_points_.reset();
+}
+
+/// A publisher counts its messages from 0 or 1, also those that nobody heard; a player of recordings does not
+/// count, and its messages have the numbers of the recording.
+void PlVinsPairing::countMissedPoints(const std_msgs::Header& header, double now_s) {
+  if (!last_sequence_) {
+    if (header.seq > 1) first_points_ = First{header.seq, header.stamp, now_s};
+  } else if (header.seq > *last_sequence_ + 1) {
+    counts_.points_missed += header.seq - *last_sequence_ - 1;
+  }
+  if (last_sequence_ && first_points_) {
+    const std::uint32_t before = first_points_->sequence - 1;
+    const double period_s = (header.stamp - first_points_->stamp).toSec();
+    const bool is_recording = no_publisher_s_ && before * period_s > first_points_->now_s - *no_publisher_s_;
+    if (!is_recording) counts_.points_missed += before;
+    first_points_.reset();
+  }
+  last_sequence_ = header.seq;
 }
 
 std::vector<sensor_msgs::PointCloudPtr> PlVinsPairing::take(double now_s) {

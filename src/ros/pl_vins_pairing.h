@@ -61,6 +61,10 @@ class PlVinsPairing {
 
   void addLines(const LineArray::ConstPtr& lines);
   void addPoints(const std_msgs::Header& header, double now_s);
+  /// Nobody publishes point messages now: the next one begins a count of its own. What was published before
+  /// it is known to be missed unless it cannot be: when the publisher has not been there for long enough to
+  /// have sent all of it, as one that plays a recording from its middle.
+  void addNoPublisher(double now_s);
 
   /// Messages that are due, in the order in which they must leave.
   std::vector<sensor_msgs::PointCloudPtr> take(double now_s);
@@ -70,6 +74,15 @@ class PlVinsPairing {
   const Counts& counts() const { return counts_; }
 
  private:
+  /// The first point message of a publisher: tells by the second one what was missed before.
+  struct First {
+    std::uint32_t sequence;
+    ros::Time stamp;
+    double now_s;
+  };
+
+  void countMissedPoints(const std_msgs::Header& header, double now_s);
+
   struct Waiting {
     ros::Time stamp;
     double deadline_s;
@@ -86,6 +99,8 @@ class PlVinsPairing {
   LineArray::ConstPtr newest_lines_;                ///< of the stream that began last
   std::optional<ros::Time> last_sent_;
   std::optional<std::uint32_t> last_sequence_;     ///< of the point messages
+  std::optional<First> first_points_;              ///< while they wait for the second
+  std::optional<double> no_publisher_s_;           ///< when there was none of point messages last
   std::vector<sensor_msgs::PointCloudPtr> gated_;  ///< due in mode frequency
   Counts counts_;
 };

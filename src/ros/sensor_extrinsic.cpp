@@ -32,6 +32,7 @@ bool hasMore(std::istream& text) {
 
 std::optional<Eigen::Isometry3d> sensorPose(const tf2::BufferCore& buffer, const std::string& sensor_frame,
                                             const std::string& camera_frame) {
+  if (sensor_frame.empty() || camera_frame.empty()) return std::nullopt;  // not the same frame, but no name
   try {
     const auto transform = buffer.lookupTransform(camera_frame, sensor_frame, ros::Time(0)).transform;
     const auto& q = transform.rotation;

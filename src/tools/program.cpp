@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -16,6 +17,17 @@ volatile std::sig_atomic_t signal_seen = 0;
 
 void onSignal(int) {
   signal_seen = 1;
+}
+
+/// A sentence for a terminal: what a file holds may be part of it, so nothing that moves the cursor, and an
+/// end.
+std::string printable(std::string sentence) {
+  constexpr std::size_t kLongest = 1000;
+  if (sentence.size() > kLongest) sentence = sentence.substr(0, kLongest) + " ...";
+  for (char& c : sentence) {
+    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = '?';
+  }
+  return sentence;
 }
 
 }  // namespace
@@ -36,10 +48,10 @@ int runProgram(const std::string& name, const std::function<int()>& body) {
   try {
     return body();
   } catch (const boost::program_options::error& error) {
-    std::cerr << name << ": " << error.what() << "; see " << name << " --help\n";
+    std::cerr << name << ": " << printable(error.what()) << "; see " << name << " --help\n";
     return 2;
   } catch (const std::exception& error) {
-    std::cerr << name << ": " << error.what() << "\n";
+    std::cerr << name << ": " << printable(error.what()) << "\n";
     return 1;
   }
 }

@@ -29,8 +29,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   info.distortion_model = kModels.at(bytes.take<std::uint8_t>() % kModels.size());
   for (std::size_t i = bytes.take<std::uint8_t>() % 10; i > 0; --i) info.D.push_back(takeNumber(bytes, 4.0));
   for (double& value : info.K) value = takeNumber(bytes, 2000.0);
+  if (bytes.take<std::uint8_t>() % 2 == 0) {
+    info.roi.x_offset = bytes.take<std::uint16_t>();
+    info.roi.width = bytes.take<std::uint32_t>();
+    info.binning_y = bytes.take<std::uint32_t>();
+  }
   try {
-    const auto camera = tet_line_tracker::makeCameraModel(tet_line_tracker::fromCameraInfo(info));
+    const auto camera = tet_line_tracker::chooseCamera(info).camera;
+    if (camera == nullptr) return 0;
     for (const double share : {0.0, 0.4, 1.0}) {
       const Eigen::Vector2d pixel(share * info.width, share * info.height);
       const auto normalized = camera->normalize(pixel);

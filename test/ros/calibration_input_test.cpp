@@ -115,5 +115,22 @@ TEST(CalibrationInput, KOfZerosMeansNotCalibrated) {
   EXPECT_EQ(input.state(), "the camera is not calibrated (K[0] of camera_info is 0)");
 }
 
+TEST(CalibrationInput, TakesOverBinningThatChangesInFlight) {
+  CalibrationInput input;
+  sensor_msgs::CameraInfo info = cameraInfo(ros::Time(1));
+  input.update(info);
+  ASSERT_NE(input.modelFor(320, 240).camera, nullptr);
+  info.binning_x = info.binning_y = 2;
+  EXPECT_FALSE(input.update(info));
+  const auto camera = input.modelFor(160, 120).camera;
+  ASSERT_NE(camera, nullptr);
+  EXPECT_EQ(camera->calibration().fx, 125.0);
+  EXPECT_EQ(input.state(), "plumb_bob, 160x120 (320x240, binning 2x2)");
+  info.roi.x_offset = 20;
+  info.roi.width = 200;
+  EXPECT_FALSE(input.update(info));
+  EXPECT_EQ(input.modelFor(100, 120).camera->calibration().cx, 70.0);
+}
+
 }  // namespace
 }  // namespace tet_line_tracker

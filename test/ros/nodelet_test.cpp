@@ -1,24 +1,17 @@
 /// Nodelets in one manager, each with its own image topic, are fed with pictures and judged by their
 /// messages.
 
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
-#include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/Imu.h>
 #include <std_srvs/Trigger.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
-#include <set>
 
-#include "synthetic_scene.h"
-#include "tet_line_tracker/LineArray.h"
-#include "tet_line_tracker/TrackingStatistics.h"
+#include "node_stream.h"
 
 namespace tet_line_tracker {
 namespace {
@@ -26,116 +19,8 @@ namespace {
 namespace encodings = sensor_msgs::image_encodings;
 namespace scene = synthetic_scene;
 
-constexpr double kPatience = 20.0;  // seconds for what must happen; a slow machine only makes the test slow
-const ros::Time kStart(1000, 0);
-const ros::Duration kPeriod(0.05);
-
-bool waitFor(const std::function<bool()>& condition, double seconds = kPatience) {
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
-  while (ros::ok() && !condition()) {
-    if (ros::WallTime::now() > end) return false;
-    ros::spinOnce();
-    ros::WallDuration(0.005).sleep();
-  }
-  return true;
-}
-
-/// Everything the manager has logged since the test began.
-std::vector<std::string> manager_log;
-
-void takeLog(const rosgraph_msgs::Log::ConstPtr& message) {
-  if (message->name == "/manager") manager_log.push_back(message->msg);
-}
-
-int timesLogged(const std::vector<std::string>& words) {
-  return static_cast<int>(std::count_if(manager_log.begin(), manager_log.end(), [&](const std::string& line) {
-    return std::all_of(words.begin(), words.end(),
-                       [&](const std::string& word) { return line.find(word) != std::string::npos; });
-  }));
-}
-
-/// Waits until the log holds a line with all of `words`.
-bool isLogged(const std::vector<std::string>& words) {
-  return waitFor([&] { return timesLogged(words) > 0; });
-}
-
-/// One nodelet /NAME, its image topic /NAME/image and everything it says.
-class Stream {
- public:
-  explicit Stream(const std::string& name) : name_(name) {
-    image_publisher_ = node_.advertise<sensor_msgs::Image>("/" + name + "/image", 300);
-    info_publisher_ = node_.advertise<sensor_msgs::CameraInfo>("/" + name + "/camera_info", 10);
-    lines_subscriber_ = node_.subscribe<LineArray>(
-        "/" + name + "/lines", 300, [this](const LineArray::ConstPtr& m) { lines.push_back(*m); });
-    statistics_subscriber_ = node_.subscribe<TrackingStatistics>(
-        "/" + name + "/statistics", 300,
-        [this](const TrackingStatistics::ConstPtr& m) { statistics.push_back(*m); });
-    diagnostics_subscriber_ = node_.subscribe<diagnostic_msgs::DiagnosticArray>(
-        "/diagnostics", 300, [this](const diagnostic_msgs::DiagnosticArray::ConstPtr& m) { take(*m); });
-  }
-
-  bool connected() {
-    return waitFor([this] {
-      return image_publisher_.getNumSubscribers() == 1 && info_publisher_.getNumSubscribers() == 1 &&
-             lines_subscriber_.getNumPublishers() == 1 && statistics_subscriber_.getNumPublishers() == 1 &&
-             diagnostics_subscriber_.getNumPublishers() >= 1;
-    });
-  }
-  void send(const sensor_msgs::Image& image) { image_publisher_.publish(image); }
-  void send(const sensor_msgs::CameraInfo& info) { info_publisher_.publish(info); }
-  /// Pictures `first` to before `last` at their time of a 20 Hz camera.
-  void sendPictures(int first, int last) {
-    for (int i = first; i < last; ++i) send(scene::monoMessage(i, kStart + kPeriod * i));
-  }
-  bool receives(std::size_t messages) {
-    return waitFor([&] { return lines.size() >= messages && statistics.size() >= messages; });
-  }
-  std::vector<LineArray> lines;
-  std::vector<TrackingStatistics> statistics;
-  std::map<std::string, std::string> diagnostics;  ///< the latest values of this nodelet
-  int diagnostics_count{0};
-
- private:
-  void take(const diagnostic_msgs::DiagnosticArray& array) {
-    for (const auto& status : array.status) {
-      if (status.name.find(name_ + ":") == std::string::npos) continue;
-      ++diagnostics_count;
-      for (const auto& value : status.values) diagnostics[value.key] = value.value;
-    }
-  }
-
-  std::string name_;
-  ros::NodeHandle node_;
-  ros::Publisher image_publisher_, info_publisher_;
-  ros::Subscriber lines_subscriber_, statistics_subscriber_, diagnostics_subscriber_;
-};
-
-std::set<std::uint64_t> idsOf(const LineArray& message) {
-  std::set<std::uint64_t> ids;
-  for (const Line& line : message.lines) ids.insert(line.id);
-  return ids;
-}
-
-/// No id twice in a message, none that comes back after it was missing.
-void expectContiguousIds(const std::vector<LineArray>& messages) {
-  std::set<std::uint64_t> before;
-  std::set<std::uint64_t> gone;
-  std::uint32_t epoch = 0;
-  for (const LineArray& message : messages) {
-    const std::set<std::uint64_t> ids = idsOf(message);
-    EXPECT_EQ(ids.size(), message.lines.size());
-    if (message.epoch != epoch) {
-      before.clear();
-      gone.clear();
-    }
-    for (const std::uint64_t id : ids) EXPECT_EQ(gone.count(id), 0U) << "id " << id << " came back";
-    for (const std::uint64_t id : before) {
-      if (ids.count(id) == 0) gone.insert(id);
-    }
-    before = ids;
-    epoch = message.epoch;
-  }
-}
+/// What the manager has logged since the first test.
+ManagerLog* manager_log = nullptr;
 
 TEST(Nodelet, PublishesEveryImageWithIdsThatStay) {
   Stream stream("plain");
@@ -225,7 +110,7 @@ TEST(Nodelet, KeepsTheRulesOfTheStream) {
   EXPECT_EQ(stream.lines[5].epoch, stream.lines[4].epoch + 1);
   EXPECT_EQ(stream.lines[5].header.stamp, kStart + kPeriod * 2);
   EXPECT_EQ(stream.lines[6].image_count, 2U);
-  EXPECT_TRUE(isLogged({"/stream/image", "dropped", "no stamp"}));
+  EXPECT_TRUE(manager_log->holds({"/stream/image", "dropped", "no stamp"}));
   ASSERT_TRUE(waitFor([&] { return stream.diagnostics["images tracked"] == "7"; }));
   EXPECT_EQ(stream.diagnostics["images dropped: late stamp"], "3");
   EXPECT_EQ(stream.diagnostics["images dropped: duplicate stamp"], "1");
@@ -271,8 +156,8 @@ TEST(Nodelet, TakesEveryEncodingAndSurvivesOthers) {
   stream.send(broken);
   send(encodings::MONO8, scene::picture(image));
   ASSERT_TRUE(stream.receives(before + 1));
-  EXPECT_TRUE(isLogged({"/encodings/image", "32FC1", "mono8"}));
-  EXPECT_EQ(timesLogged({"32FC1"}), 1);
+  EXPECT_TRUE(manager_log->holds({"/encodings/image", "32FC1", "mono8"}));
+  EXPECT_EQ(manager_log->count({"32FC1"}), 1);
   ASSERT_TRUE(waitFor([&] { return stream.diagnostics["images dropped: unreadable"] == "3"; }));
 }
 
@@ -301,7 +186,7 @@ TEST(Nodelet, TakesTheCalibrationWhenItComes) {
   ASSERT_TRUE(stream.receives(25));
   ASSERT_FALSE(stream.lines[24].lines.empty());
   EXPECT_TRUE(std::isnan(stream.lines[24].lines[0].start_normalized[0]));
-  EXPECT_TRUE(isLogged({"/calibration/camera_info", "no camera_info after"}));
+  EXPECT_TRUE(manager_log->holds({"/calibration/camera_info", "no camera_info after"}));
 
   stream.send(scene::cameraInfo(kStart));
   int sent = 25;
@@ -313,7 +198,7 @@ TEST(Nodelet, TakesTheCalibrationWhenItComes) {
   EXPECT_NEAR(line.start_normalized[0], (line.start_px[0] - scene::kWidth / 2.0) / scene::kFocal, 1e-6);
   EXPECT_NEAR(line.start_normalized[1], (line.start_px[1] - scene::kHeight / 2.0) / scene::kFocal, 1e-6);
   EXPECT_GT(line.age, 25U);
-  EXPECT_EQ(timesLogged({"/calibration/camera_info", "no camera_info after"}), 1);
+  EXPECT_EQ(manager_log->count({"/calibration/camera_info", "no camera_info after"}), 1);
 
   sensor_msgs::CameraInfo other = scene::cameraInfo(kStart);
   other.width = 2 * scene::kWidth;
@@ -322,7 +207,7 @@ TEST(Nodelet, TakesTheCalibrationWhenItComes) {
     if (static_cast<int>(stream.lines.size()) == sent) stream.sendPictures(sent, sent + 1), ++sent;
     return std::isnan(stream.lines.back().lines.at(0).start_normalized[0]);
   }));
-  EXPECT_TRUE(isLogged({"/calibration/camera_info", "640x240", "320x240"}));
+  EXPECT_TRUE(manager_log->holds({"/calibration/camera_info", "640x240", "320x240"}));
 }
 
 TEST(Nodelet, ThinsOnlyTheMessages) {
@@ -416,20 +301,20 @@ TEST(Nodelet, LosesNoImageForWantOfAnImuThatIsOutOfStepAndTakesItBack) {
   };
   fly(100, 900.0);
   ASSERT_TRUE(stream.receives(100)) << stream.lines.size() << " images were tracked";
-  EXPECT_TRUE(isLogged({"/imu_behind/imu is out of step", "s behind the image"}));
+  EXPECT_TRUE(manager_log->holds({"/imu_behind/imu is out of step", "s behind the image"}));
   EXPECT_TRUE(waitFor([&] {
     return stream.diagnostics["imu"].rfind("/imu_behind/imu, out of step: its newest", 0) == 0;
   })) << stream.diagnostics["imu"];
   fly(40, 0.0);
   ASSERT_TRUE(stream.receives(140)) << stream.lines.size() << " images were tracked";
-  EXPECT_TRUE(isLogged({"/imu_behind/imu is in step again"}));
+  EXPECT_TRUE(manager_log->holds({"/imu_behind/imu is in step again"}));
   EXPECT_TRUE(waitFor([&] { return stream.diagnostics["imu"] == "/imu_behind/imu"; }))
       << stream.diagnostics["imu"];
-  EXPECT_EQ(timesLogged({"/imu_behind/imu is out of step"}), 1);
+  EXPECT_EQ(manager_log->count({"/imu_behind/imu is out of step"}), 1);
 }
 
 TEST(Nodelet, TellsWhichTopicsHaveImagesWhenItsOwnHasNone) {
-  EXPECT_TRUE(isLogged({"no image for", "/nobody/image (publishers: 0)", "/plain/debug_image"}));
+  EXPECT_TRUE(manager_log->holds({"no image for", "/nobody/image (publishers: 0)", "/plain/debug_image"}));
 }
 
 }  // namespace
@@ -438,7 +323,7 @@ TEST(Nodelet, TellsWhichTopicsHaveImagesWhenItsOwnHasNone) {
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   ros::init(argc, argv, "nodelet_test");
-  ros::NodeHandle node;
-  const ros::Subscriber log = node.subscribe("/rosout", 1000, tet_line_tracker::takeLog);
+  tet_line_tracker::ManagerLog log;
+  tet_line_tracker::manager_log = &log;
   return RUN_ALL_TESTS();
 }

@@ -234,6 +234,20 @@ TEST(PlVinsPairing, LeavesOutWhatAnEstimatorCannotUse) {
   EXPECT_EQ(pairing.counts().lines_over_limit, 1U);
 }
 
+TEST(PlVinsPairing, LeavesOutLinesThatFloatsDoNotHold) {
+  for (const double value : {std::numeric_limits<double>::infinity(), 1e39, -1e300}) {
+    PlVinsPairing pairing(followingPoints());
+    FakeTracker tracker;
+    for (int i = 0; i < 3; ++i) tracker.add();
+    const auto lines = tracker.image(0.0);
+    lines->lines[0].start_normalized[1] = lines->lines[2].end_normalized[0] = value;
+    pairing.addLines(lines);
+    pairing.addPoints(pointsAt(0.0), 0.0);
+    EXPECT_EQ(pairing.take(0.0).at(0)->points.size(), 1U) << value;
+    EXPECT_EQ(pairing.counts().lines_not_in_front, 2U) << value;
+  }
+}
+
 TEST(PlVinsPairing, StartsAgainWhenABagDoes) {
   PlVinsPairing pairing(followingPoints());
   FakeTracker tracker;
@@ -261,6 +275,40 @@ TEST(PlVinsPairing, CountsPointMessagesThatItNeverSaw) {
     pairing.addPoints(header, 0.0);
   }
   EXPECT_EQ(pairing.counts().points_missed, 2U + 2U);
+}
+
+/// What is missed of points at 10 Hz from number `first` on, the publisher of which came up to 0.5 s ago.
+std::uint64_t missedFrom(PlVinsPairing& pairing, std::uint32_t first, double now_s) {
+  const std::uint64_t before = pairing.counts().points_missed;
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    std_msgs::Header header = pointsAt(now_s + 0.1 * i);
+    header.seq = first + i;
+    pairing.addPoints(header, now_s + 0.1 * i);
+  }
+  return pairing.counts().points_missed - before;
+}
+
+TEST(PlVinsPairing, MissesNothingOfARecordingThatIsPlayedFromItsMiddle) {
+  PlVinsPairing pairing(followingPoints());
+  pairing.addNoPublisher(9.5);
+  EXPECT_EQ(missedFrom(pairing, 601, 10.0), 0U);
+  // Played again from its middle, and by a publisher that counts.
+  pairing.addNoPublisher(19.5);
+  EXPECT_EQ(missedFrom(pairing, 3601, 20.0), 0U);
+  pairing.addNoPublisher(29.5);
+  EXPECT_EQ(missedFrom(pairing, 1, 30.0), 0U);
+}
+
+TEST(PlVinsPairing, CountsWhatAPublisherMayHaveSentBeforeItWasHeard) {
+  PlVinsPairing late(followingPoints());  // the publisher was there before
+  EXPECT_EQ(missedFrom(late, 601, 10.0), 600U);
+  PlVinsPairing soon(followingPoints());  // 0.5 s are enough for four messages
+  soon.addNoPublisher(9.5);
+  EXPECT_EQ(missedFrom(soon, 5, 10.0), 4U);
+  PlVinsPairing gap(followingPoints());
+  gap.addNoPublisher(9.5);
+  missedFrom(gap, 601, 10.0);
+  EXPECT_EQ(missedFrom(gap, 609, 10.5), 3U);
 }
 
 TEST(PlVinsPairing, AnswersEachPointMessageOnceWhateverHappensToTheLines) {

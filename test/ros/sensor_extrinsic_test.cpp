@@ -49,6 +49,7 @@ TEST(SensorPose, FollowsTheChainOfFrames) {
       pose->linear().isApprox((body_from_camera.conjugate() * body_from_imu).toRotationMatrix(), 1e-9));
   EXPECT_TRUE(pose->translation().isApprox(body_from_camera.conjugate() * Eigen::Vector3d(1.0, 2.0, -3.0)));
   EXPECT_FALSE(sensorPose(buffer, "", "camera"));
+  EXPECT_FALSE(sensorPose(buffer, "", ""));
 }
 
 TEST(ImuRotation, AQuaternionIsReadAndAnythingElseRefused) {

@@ -37,7 +37,7 @@ TEST(Scripts, EachAnswersHelpInsteadOfStartingWork) {
 }
 
 TEST(Scripts, AnUnknownOptionIsRefusedInsteadOfTakenForAValue) {
-  for (const std::string script : {"fuzz", "sanitize", "soak"}) {
+  for (const std::string script : {"fuzz", "load_test", "sanitize", "soak"}) {
     const ShellResult result = inSourceFolder("timeout 60 scripts/" + script + ".sh --unheard-of");
     EXPECT_EQ(result.status, 1) << script << ": " << result.output;
     EXPECT_NE(result.output.find("unknown option --unheard-of"), std::string::npos) << result.output;

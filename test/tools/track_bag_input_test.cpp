@@ -263,6 +263,32 @@ TEST_F(TrackBagInput, ACalibrationOfAnotherSizeIsNotUsedAndToldOnce) {
   EXPECT_EQ(run.errors.find(sentence), run.errors.rfind(sentence)) << run.errors;
 }
 
+TEST_F(TrackBagInput, ACalibrationOfTheFullImageIsTakenThroughBinningAndRegionOfInterest) {
+  writeBag([](rosbag::Bag& bag) { bag.write(kInfo, stampOf(0), infoOf(0)); });
+  ASSERT_EQ(track().status, 0);
+  const auto plain = lines();
+  writeBag([](rosbag::Bag& bag) {
+    sensor_msgs::CameraInfo info = infoOf(0, 800);
+    info.height = 600;
+    info.K = {400.0, 0, 160.0 * 2 + 100.0, 0, 400.0, 120.0 * 2 + 60.0, 0, 0, 1};
+    info.roi.x_offset = 100;
+    info.roi.y_offset = 60;
+    info.roi.width = 640;
+    info.roi.height = 480;
+    info.binning_x = info.binning_y = 2;
+    bag.write(kInfo, stampOf(0), info);
+  });
+  const ToolRun run = track();
+  EXPECT_EQ(run.status, 0) << run.errors;
+  EXPECT_EQ(normalized(), std::vector<bool>(kImages, true)) << run.errors;
+  for (int i = 0; i < kImages; ++i) {
+    const Line& seen = lines().at(static_cast<std::size_t>(i)).message.lines.at(0);
+    const Line& expected = plain.at(static_cast<std::size_t>(i)).message.lines.at(0);
+    EXPECT_EQ(seen.start_normalized, expected.start_normalized) << i;
+    EXPECT_EQ(seen.end_normalized, expected.end_normalized) << i;
+  }
+}
+
 TEST_F(TrackBagInput, ACalibrationOfZerosMeansUncalibrated) {
   writeBag([](rosbag::Bag& bag) { bag.write(kInfo, stampOf(0), infoOf(0, 320, 0.0)); });
   const ToolRun run = track();
