@@ -7,7 +7,10 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "managed_nodelet.h"
@@ -179,7 +182,8 @@ TEST_F(NodeletFaults, FramesWithoutANameOrWithAnyNameCostNoImage) {
 }
 
 TEST_F(NodeletFaults, AMaskOfAnotherSizeIsToldAndLinesAreTrackedInTheWholeImage) {
-  const std::string path = "/tmp/nodelet_faults_" + std::to_string(getpid()) + ".png";
+  const std::string path =
+      std::filesystem::temp_directory_path() / ("nodelet_faults_" + std::to_string(getpid()) + ".png");
   ASSERT_TRUE(cv::imwrite(path, cv::Mat(10, 20, CV_8UC1, cv::Scalar(0))));
   ros::param::set("/wrong_mask/mask", path);
   start("wrong_mask");

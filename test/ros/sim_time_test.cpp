@@ -6,6 +6,8 @@
 #include <rosgraph_msgs/Clock.h>
 #include <sensor_msgs/Imu.h>
 
+#include <memory>
+
 #include "managed_nodelet.h"
 #include "node_stream.h"
 #include "stream_diagnostics.h"
