@@ -42,6 +42,12 @@ function(tet_add_rostest name)
     tet_tell_folders(${name})
     tet_link_ros(${name} tet_line_tracker_ros gtest)
     add_dependencies(${name} line_tracker line_subscriber tet_line_tracker_nodelets)
+    # Nodes share the processors with the test that judges them, and with no other one.
+    get_directory_property(tests TESTS)
+    list(FILTER tests INCLUDE REGEX "_${name}\\.test$")
+    if(tests)
+      set_tests_properties(${tests} PROPERTIES RUN_SERIAL TRUE)
+    endif()
   endif()
 endfunction()
 

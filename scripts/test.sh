@@ -27,8 +27,8 @@ sourceSetup "$build/devel/setup.bash"
 
 rm -rf "$build/test_results"
 status=0
-# One at a time: rostests share the processors with the nodes they judge. rostest picks a free port for its master.
-(cd "$build" && ctest -j1 --timeout 600 --output-on-failure "${pick[@]}" </dev/null) || status=1
+# Those with nodes run alone, on a master with a free port.
+(cd "$build" && ctest -j"$(nproc)" --timeout 600 --output-on-failure "${pick[@]}" </dev/null) || status=1
 if [ $lint = lint ]; then python3 scripts/lint.py "$build" || status=1; fi
 python3 scripts/count_tests.py "$build" $lint "${pick[@]}" || status=1
 exit $status

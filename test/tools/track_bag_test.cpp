@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,11 +24,13 @@ constexpr char kFrames[] = "/tf_static";
 /// A short flight with fast turns, and copies of its bag with something left out.
 class TrackBag : public testing::Test {
  protected:
-  void SetUp() override {
+  static void SetUpTestSuite() {
+    flight_folder = std::make_unique<TemporaryFolder>();
     const ToolRun run = runTool("simulate_bag", {flight(), "--motion", "fast", "--seconds", "0.5"});
     ASSERT_EQ(run.status, 0) << run.errors;
   }
-  std::string flight() const { return folder_.path() / "flight.bag"; }
+  static void TearDownTestSuite() { flight_folder.reset(); }
+  static std::string flight() { return flight_folder->path() / "flight.bag"; }
   std::string file(const std::string& name) const { return folder_.path() / name; }
 
   /// How often each motion prior was used.
@@ -54,8 +57,11 @@ class TrackBag : public testing::Test {
   }
 
  private:
+  static std::unique_ptr<TemporaryFolder> flight_folder;
   TemporaryFolder folder_;
 };
+
+std::unique_ptr<TemporaryFolder> TrackBag::flight_folder;
 
 /// The lines of a bag as they are on the wire.
 std::string linesOf(const std::string& path) {
