@@ -128,7 +128,7 @@ std::string chooseImuTopic(const rosbag::Bag& bag, const std::string& asked) {
 }
 
 std::string chooseOdometryTopic(const rosbag::Bag& bag, const std::string& asked) {
-  const std::string topic = chooseOnlyTopic<nav_msgs::Odometry>(bag, asked, "nav_msgs/Odometry");
+  std::string topic = chooseOnlyTopic<nav_msgs::Odometry>(bag, asked, "nav_msgs/Odometry");
   if (topic.empty()) {
     const Topics topics = topicsOf<nav_msgs::Odometry>(bag);
     throw std::runtime_error(
