@@ -19,7 +19,7 @@ class LineSubscriber:
         self.epoch = 0
         self.views = {}  # lists of Line by id, newest last
         self.summary = rospy.Publisher("~summary", String, queue_size=10)
-        rospy.Subscriber("/line_tracker/lines", LineArray, self.on_lines, queue_size=100)
+        rospy.Subscriber("/line_tracker/lines", LineArray, self.on_lines, queue_size=100, tcp_nodelay=True)
 
     def on_lines(self, array):
         if array.epoch != self.epoch:  # a reset: ids begin anew

@@ -70,8 +70,9 @@ class Camera {
     }
     ros::NodeHandle node;
     images_ = node.advertise<sensor_msgs::Image>("/" + name + "/image", 10);
-    lines_ = node.subscribe<LineArray>("/" + name + "/lines", 1000,
-                                       [this](const LineArray::ConstPtr& lines) { take(*lines); });
+    lines_ = node.subscribe<LineArray>(
+        "/" + name + "/lines", 1000, [this](const LineArray::ConstPtr& lines) { take(*lines); },
+        ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
     info_ = node.advertise<sensor_msgs::CameraInfo>("/" + name + "/camera_info", 1, true);
     sensor_msgs::CameraInfo info = synthetic_scene::cameraInfo(ros::Time(1));
     info.width = static_cast<std::uint32_t>(arguments.width);
