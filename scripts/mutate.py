@@ -104,10 +104,13 @@ def configure(folder):
 
 def failed_tests(folder, program):
     """Names of the tests of a program that fail, or what else happened to it."""
-    path = os.path.join(folder, 'build/devel/lib/tet_line_tracker', program)
+    libraries = os.path.join(folder, 'build/devel/lib')
+    path = os.path.join(libraries, 'tet_line_tracker', program)
+    # A shell that has sourced a setup.bash would load the core of that build, which is not mutated.
+    searched = os.pathsep.join(filter(None, [libraries, os.environ.get('LD_LIBRARY_PATH')]))
     try:
         done = subprocess.run([path], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              timeout=TIMEOUT_S, cwd=folder)
+                              timeout=TIMEOUT_S, cwd=folder, env=dict(os.environ, LD_LIBRARY_PATH=searched))
     except subprocess.TimeoutExpired:
         return ['{} does not end'.format(program)]
     if done.returncode == 0:
