@@ -22,4 +22,4 @@ node=$!
 # The stamps jump back at every turn: each is an epoch of its own.
 rosrun rosbag play --quiet --loop --rate "${2:-2}" "$flight" >"$build/soak_player.log" 2>&1 &
 children+=("$node" $!)
-python3 scripts/watch_memory.py "$node" "${1:-30}" </dev/null
+python3 scripts/watch_node.py "$node" "${1:-30}" </dev/null

@@ -172,15 +172,8 @@ void LineTrackerNodelet::track(const sensor_msgs::Image& image) {
   checkMask(gray.cols, gray.rows);
   const std::string& frame_id = image.header.frame_id;
   if (stamp_ns != 0) {
-    const auto isThere = [](const auto& sensor, const ros::Subscriber& subscriber) {
-      return sensor.input.frame() || subscriber.getNumPublishers() > 0;
-    };
-    if (tracker_->usesImu() && isThere(imu_, imu_subscriber_)) {
-      await(imu_, tracker_->imuStamp(stamp_ns), frame_id);
-    }
-    if (tracker_->usesOdometry() && isThere(odometry_, odometry_subscriber_)) {
-      await(odometry_, stamp_ns, frame_id);
-    }
+    if (tracker_->usesImu()) await(imu_, imu_subscriber_, tracker_->imuStamp(stamp_ns), frame_id);
+    if (tracker_->usesOdometry()) await(odometry_, odometry_subscriber_, stamp_ns, frame_id);
   }
 
   const std::lock_guard<std::mutex> lock(tracker_mutex_);
@@ -211,8 +204,9 @@ void LineTrackerNodelet::track(const sensor_msgs::Image& image) {
 /// Without tracker_mutex_, so that a reset need not wait with the image. An image that would cost another one
 /// its place in the queue does not wait.
 template <class Sample>
-void LineTrackerNodelet::await(MotionSensor<Sample>& sensor, std::int64_t stamp_ns,
-                               const std::string& camera_frame) {
+void LineTrackerNodelet::await(MotionSensor<Sample>& sensor, const ros::Subscriber& subscriber,
+                               std::int64_t stamp_ns, const std::string& camera_frame) {
+  if (!sensor.input.frame() && subscriber.getNumPublishers() == 0) return;
   const auto crowded = [this] { return queue_->isFull(); };
   if (sensor.extrinsic.isHopeful() && !sensor.input.waitFor(stamp_ns, parameters_.imu_wait, crowded)) {
     if (sensor.extrinsic.pose()) diagnostics_.addWithoutSamples();

@@ -72,9 +72,10 @@ class LineTrackerNodelet : public nodelet::Nodelet {
   // In the worker thread.
   void work();
   void track(const sensor_msgs::Image& image);
-  /// Waits for the messages of a sensor up to `stamp_ns`, and for its pose.
+  /// Waits for the messages of a sensor up to `stamp_ns`, and for its pose, where somebody publishes them.
   template <class Sample>
-  void await(MotionSensor<Sample>& sensor, std::int64_t stamp_ns, const std::string& camera_frame);
+  void await(MotionSensor<Sample>& sensor, const ros::Subscriber& subscriber, std::int64_t stamp_ns,
+             const std::string& camera_frame);
   template <class Sample>
   void warnOfLag(MotionSensor<Sample>& sensor);
   void checkMask(int width, int height);

@@ -1,5 +1,3 @@
-#include <functional>
-
 #include <geometry_msgs/TransformStamped.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
@@ -10,18 +8,10 @@
 
 #include "tet_line_tracker/Line3DArray.h"
 #include "tet_line_tracker/LineArray.h"
+#include "wait_for.h"
 
 namespace tet_line_tracker {
 namespace {
-
-bool waitFor(const std::function<bool()>& condition) {
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(30.0);
-  while (ros::ok() && !condition() && ros::WallTime::now() < end) {
-    ros::spinOnce();
-    ros::WallDuration(0.01).sleep();
-  }
-  return condition();
-}
 
 /// A camera that moves along x and looks along z at a vertical line 2 m ahead.
 class LineMapperNodelet : public ::testing::Test {

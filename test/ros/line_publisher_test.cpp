@@ -5,24 +5,14 @@
 #include <sensor_msgs/image_encodings.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include <functional>
 #include <vector>
 
 #include "tet_line_tracker/LineArray.h"
 #include "tet_line_tracker/TrackingStatistics.h"
+#include "wait_for.h"
 
 namespace tet_line_tracker {
 namespace {
-
-bool waitFor(const std::function<bool()>& condition) {
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(20.0);
-  while (ros::ok() && !condition()) {
-    if (ros::WallTime::now() > end) return false;
-    ros::spinOnce();
-    ros::WallDuration(0.005).sleep();
-  }
-  return true;
-}
 
 /// Image i of a 20 Hz camera with one line.
 LineFrame frameOf(int i, std::uint32_t epoch = 1) {

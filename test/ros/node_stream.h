@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -15,22 +14,12 @@
 #include "synthetic_scene.h"
 #include "tet_line_tracker/LineArray.h"
 #include "tet_line_tracker/TrackingStatistics.h"
+#include "wait_for.h"
 
 namespace tet_line_tracker {
 
-inline constexpr double kPatience = 20.0;  // [s] a slow machine only makes the test slow
 inline const ros::Time kStart(1000, 0);
 inline const ros::Duration kPeriod(0.05);
-
-inline bool waitFor(const std::function<bool()>& condition, double seconds = kPatience) {
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
-  while (ros::ok() && !condition()) {
-    if (ros::WallTime::now() > end) return false;
-    ros::spinOnce();
-    ros::WallDuration(0.005).sleep();
-  }
-  return true;
-}
 
 /// What the node /manager has logged since this object was made.
 class ManagerLog {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <random>
 #include <set>
@@ -10,19 +9,10 @@
 
 #include "../../src/tools/pl_vins_contract.h"
 #include "tet_line_tracker/LineArray.h"
+#include "wait_for.h"
 
 namespace tet_line_tracker {
 namespace {
-
-bool waitFor(const std::function<bool()>& condition, double seconds) {
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
-  while (ros::ok() && ros::WallTime::now() < end) {
-    ros::spinOnce();
-    if (condition()) return true;
-    ros::WallDuration(0.002).sleep();
-  }
-  return condition();
-}
 
 /// Tracker, point tracker and estimator around the bridge.
 class Bridge : public ::testing::Test {

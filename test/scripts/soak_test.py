@@ -8,7 +8,7 @@ import unittest
 import cases
 
 sys.modules.setdefault('rospy', types.ModuleType('rospy'))  # only its subscriber needs ROS
-import watch_memory  # noqa: E402
+import watch_node  # noqa: E402
 
 
 def message(epoch, image_count, ages):
@@ -20,7 +20,7 @@ def message(epoch, image_count, ages):
 
 class IdRules(unittest.TestCase):
     def check(self, *messages):
-        rules = watch_memory.IdRules()
+        rules = watch_node.IdRules()
         for arguments in messages:
             rules.add(message(*arguments))
         return rules

@@ -19,7 +19,6 @@ constexpr std::array<double, LineBend::kTerms> kMostShares{0.0051, 0.0452, 0.122
 constexpr float kShort = 60.0F;      ///< up to here few are enough [px]
 constexpr float kMiddling = 130.0F;  ///< up to here some are [px]
 constexpr float kLong = 250.0F;      ///< up to here many are [px]
-constexpr double kMaxSagitta = 1.0;  ///< more is no lens but a wrong calibration, in lengths of the chord
 constexpr double kMaxSum = 1e5;  ///< of the terms of a bend: no point of it is farther from the chord [px]
 
 template <std::size_t kPoints>
@@ -42,7 +41,7 @@ LineBend bendThrough(const CameraModel& camera, const std::array<double, kPoints
     q[i] = offset / (fraction * (1.0 - fraction));
     sagitta = std::max(sagitta, std::abs(offset));
   }
-  if (sagitta < LensBend::kMinSagitta || sagitta > kMaxSagitta * chord.norm()) return {};
+  if (!(sagitta >= LensBend::kMinSagitta)) return {};
   // The polynomial through all, by Newton's divided differences, then in powers of u.
   for (std::size_t order = 1; order < kPoints; ++order) {
     for (std::size_t i = kPoints - 1; i >= order; --i) q[i] = (q[i] - q[i - 1]) / (u[i] - u[i - order]);

@@ -13,8 +13,7 @@ namespace {
 
 constexpr double kGyroSigma = 0.001;  ///< of a rotation that the gyroscope measured, besides its bias [rad]
 constexpr double kImageSigma = 0.04;  ///< of one that the images alone show: it takes up parallax [rad]
-constexpr double kOdometrySigma = 0.015;  ///< of one by an odometry: wheels do not feel pitch and roll [rad]
-constexpr double kMinStep = 0.005;        ///< by an odometry; a shorter one has no direction [m]
+constexpr double kMinStep = 0.005;    ///< by an odometry; a shorter one has no direction [m]
 constexpr double kOtherRotation = 0.02;   ///< a difference that corners are to decide on [rad]
 constexpr std::size_t kManyInliers = 20;  ///< that no chance brings together
 constexpr std::size_t kMinRatios = 5;     ///< corners that must tell how much longer a step is than the last
@@ -55,7 +54,7 @@ void EgoMotionTracker::rememberPlaces() {
 }
 
 void EgoMotionTracker::expect(const Eigen::Matrix3d& rotation, double interval_s) {
-  const Eigen::Vector3d step = expectedStep(rotation, interval_s);
+  const Eigen::Vector3d step = steadyRatio(interval_s) * (rotation * translation_);
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     CornerTracker::Corner& corner = corners_.corner(i);
     const Known& known = known_[i];
@@ -97,14 +96,9 @@ Eigen::Matrix3d EgoMotionTracker::steadyRotation(double interval_s) const {
   return so3Exp(steadyRatio(interval_s) * rotation_).toRotationMatrix();
 }
 
-std::optional<double> EgoMotionTracker::odometryRatio() const {
-  if (!step_ || !(last_step_m_ >= kMinStep) || translation_.isZero()) return std::nullopt;
-  return std::min(kMaxRatio, step_->norm() / last_step_m_);
-}
-
-Eigen::Vector3d EgoMotionTracker::expectedStep(const Eigen::Matrix3d& rotation, double interval_s) const {
-  if (const std::optional<double> ratio = odometryRatio()) return *ratio * step_->stableNormalized();
-  return steadyRatio(interval_s) * (rotation * translation_);
+std::optional<double> EgoMotionTracker::odometryRatio(const std::optional<Eigen::Vector3d>& step) const {
+  if (!step || !(last_step_m_ >= kMinStep) || translation_.isZero()) return std::nullopt;
+  return std::min(kMaxRatio, step->norm() / last_step_m_);
 }
 
 EgoMotion EgoMotionTracker::follow(const ImagePyramid& pyramid, double interval_s,
@@ -115,16 +109,15 @@ EgoMotion EgoMotionTracker::follow(const ImagePyramid& pyramid, double interval_
   collectPairs(rotation);
   if (pairs_.size() < min_inliers) return {};
   EpipolarEstimator::Prior prior;
-  prior.rotation_sigma = step_ ? kOdometrySigma : kImageSigma;
+  prior.rotation_sigma = kImageSigma;
   if (measured) {
     prior.rotation = so3Log(measured->rotation * rotation.transpose());
     prior.rotation_sigma = kGyroSigma + measured->deviation;
   }
   prior.steady = so3Log(steadyRotation(interval_s) * rotation.transpose());
-  const bool steps = step_ && step_->norm() >= kMinStep;
-  prior.translation = steps ? step_->normalized() : Eigen::Vector3d(rotation * translation_);
+  prior.translation = rotation * translation_;
   EgoMotion motion = estimator_.estimate(pairs_, focal_, prior);
-  if ((step_ || (measured && !measured->trusted)) && !motion.rotates) {
+  if (measured && !measured->trusted && !motion.rotates) {
     prior.rotation.setZero();
     prior.rotation_sigma = kImageSigma;
     motion = estimator_.estimate(pairs_, focal_, prior);
@@ -195,18 +188,15 @@ void EgoMotionTracker::update(const ImagePyramid& pyramid, double interval_s,
                               const std::optional<Turn>& measured, const std::optional<Eigen::Vector3d>& step,
                               MotionPrediction& prediction) {
   if (!camera_) return;
-  step_ = step;
   rememberPlaces();
   EgoMotion motion = follow(pyramid, interval_s, prediction.rotation, measured, 0);
-  if (!motion.rotates) {
-    step_.reset();  // the odometry may be what led them astray
-    motion = followFromElsewhere(pyramid, interval_s, measured, prediction);
-  }
+  if (!motion.rotates) motion = followFromElsewhere(pyramid, interval_s, measured, prediction);
   if (motion.known()) {
     prediction.rotation = so3Exp(motion.rotation).toRotationMatrix() * prediction.rotation;
     for (PointPair& pair : pairs_) pair.before += motion.rotation.cross(pair.before);
-    prediction.step_ratio =
-        translation_.isZero() ? 0.0 : stepRatio(motion, odometryRatio().value_or(steadyRatio(interval_s)));
+    prediction.step_ratio = translation_.isZero()
+                                ? 0.0
+                                : stepRatio(motion, odometryRatio(step).value_or(steadyRatio(interval_s)));
     prediction.translation = motion.translation;
     prediction.inliers = motion.inliers;
     learnDepths(motion, prediction.step_ratio);
@@ -216,8 +206,7 @@ void EgoMotionTracker::update(const ImagePyramid& pyramid, double interval_s,
     for (Known& known : known_) known.inverse_depth = known.inverse_before = 0.0;
     if (step && !motion.rotates && step->norm() >= kMinStep) {
       // Nothing in the image speaks against the odometry.
-      step_ = step;
-      prediction.step_ratio = odometryRatio().value_or(0.0);
+      prediction.step_ratio = odometryRatio(step).value_or(0.0);
       prediction.translation = step->normalized();
     }
   }

@@ -53,10 +53,8 @@ class EgoMotionTracker {
   };
 
   void rememberPlaces();
-  /// How points will move in units of the last step: by the odometry, or if the camera went on as before.
-  Eigen::Vector3d expectedStep(const Eigen::Matrix3d& rotation, double interval_s) const;
-  /// How much longer the step of the odometry is than its last; nothing when either is unknown.
-  std::optional<double> odometryRatio() const;
+  /// How much longer the `step` of an odometry is than its last; nothing when either is unknown.
+  std::optional<double> odometryRatio(const std::optional<Eigen::Vector3d>& step) const;
   /// How much longer this step is than the last, and how the camera turned, if it went on as before.
   double steadyRatio(double interval_s) const;
   Eigen::Matrix3d steadyRotation(double interval_s) const;
@@ -84,8 +82,7 @@ class EgoMotionTracker {
   Eigen::Vector3d translation_{Eigen::Vector3d::Zero()};  ///< of the last step
   Eigen::Vector3d rotation_{Eigen::Vector3d::Zero()};     ///< of the last step, rotation vector [rad]
   double last_interval_s_{0.0};
-  std::optional<Eigen::Vector3d> step_;  ///< to this image, by the odometry [m]
-  double last_step_m_{0.0};              ///< length of the one before; 0: not known
+  double last_step_m_{0.0};  ///< length of the odometry's last step; 0: not known
 };
 
 }  // namespace tet_line_tracker

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 
 #include <Eigen/Core>
+
+#include "motion/stamped_samples.h"
 
 namespace tet_line_tracker {
 
@@ -22,7 +23,7 @@ class GyroIntegrator {
                                           const Eigen::Vector3d& bias) const;
 
   /// Forgets samples that end before `stamp_ns`.
-  void forgetBefore(std::int64_t stamp_ns);
+  void forgetBefore(std::int64_t stamp_ns) { samples_.forgetBefore(stamp_ns); }
 
   static constexpr std::int64_t kMaxGapNs = 100000000;
   /// No camera turns at 160 revolutions per second, and no gyroscope measures it [rad/s].
@@ -33,7 +34,7 @@ class GyroIntegrator {
     std::int64_t stamp_ns;
     Eigen::Vector3d angular_velocity;
   };
-  std::deque<Sample> samples_;
+  StampedSamples<Sample> samples_;
 };
 
 }  // namespace tet_line_tracker

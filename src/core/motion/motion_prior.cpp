@@ -96,7 +96,6 @@ class MotionPrior::Implementation {
     ego_motion_.reset();
     last_rotation_.setZero();
     last_stamp_ns_.reset();
-    odometry_doubted_ = false;
   }
   MotionPrediction predict(const ImagePyramid& pyramid, std::int64_t stamp_ns);
   LineSegment apply(const MotionPrediction& prediction, const LineSegment& segment,
@@ -125,9 +124,6 @@ class MotionPrior::Implementation {
                     const std::optional<Eigen::Vector3f>& seen,
                     const std::optional<Eigen::Isometry3d>& odometry, float interval_s,
                     MotionPrediction& prediction);
-  /// Whether the images fit at least as well with the odometry's rotation as with what they show alone.
-  bool confirmsOdometry(const ImagePyramid& pyramid, const Eigen::Matrix3d& rotation,
-                        const Eigen::Vector3f& seen);
   /// Rotation by gyroscope or images, whichever the images confirm; none where neither is.
   void chooseRotation(const ImagePyramid& pyramid, const Eigen::Vector3f& seen,
                       const std::optional<Eigen::Vector3f>& measured, float interval_s,
@@ -153,7 +149,6 @@ class MotionPrior::Implementation {
   GyroBias gyro_bias_;  ///< of directions in the camera's optical frame, which rotate against the camera
   std::optional<Eigen::Isometry3d> camera_from_body_;
   OdometryInterpolator odometry_;
-  bool odometry_doubted_{false};               ///< no corner was found again where it led
   std::optional<std::int64_t> last_stamp_ns_;  ///< nothing before the first image
   Eigen::Vector3f last_rotation_{Eigen::Vector3f::Zero()};
 };
@@ -191,13 +186,6 @@ std::optional<Eigen::Isometry3d> MotionPrior::Implementation::interpolateOdometr
   const std::optional<Eigen::Isometry3d> motion = odometry_.motion(*last_stamp_ns_, stamp_ns);
   if (!motion) return std::nullopt;
   return *camera_from_body_ * *motion * camera_from_body_->inverse();
-}
-
-bool MotionPrior::Implementation::confirmsOdometry(const ImagePyramid& pyramid,
-                                                   const Eigen::Matrix3d& rotation,
-                                                   const Eigen::Vector3f& seen) {
-  RotationAligner& aligner = fine_.hasTemplate() ? fine_ : coarse_;
-  return !(aligner.cost(pyramid, so3Log(rotation).cast<float>()) > aligner.cost(pyramid, seen));
 }
 
 Eigen::Vector3f MotionPrior::Implementation::alignImages(const ImagePyramid& pyramid) {
@@ -252,12 +240,10 @@ MotionPrediction MotionPrior::Implementation::predict(const ImagePyramid& pyrami
   const float interval_s = 1e-9F * static_cast<float>(stamp_ns - last_stamp_ns_.value_or(stamp_ns));
   const bool can_align = fine_.hasTemplate() || coarse_.hasTemplate();
   const std::optional<Eigen::Vector3f> measured = integrateGyro(stamp_ns);
-  std::optional<Eigen::Isometry3d> odometry = interpolateOdometry(stamp_ns);
-  const bool led = odometry && !odometry_doubted_;
+  const std::optional<Eigen::Isometry3d> odometry = interpolateOdometry(stamp_ns);
   const bool trusted = measured && estimatesEgoMotion() && gyro_bias_.isTrusted();
   std::optional<Eigen::Vector3f> seen;
-  if (can_align && !led && (!trusted || estimated_offset_)) seen = alignImages(pyramid);
-  if (odometry && seen && !confirmsOdometry(pyramid, odometry->linear(), *seen)) odometry.reset();
+  if (can_align && !odometry && (!trusted || estimated_offset_)) seen = alignImages(pyramid);
   if (odometry) {
     prediction.source = MotionPrediction::Source::kOdometry;
     prediction.rotation = odometry->linear();
@@ -296,7 +282,6 @@ void MotionPrior::Implementation::addEgoMotion(const ImagePyramid& pyramid,
   std::optional<Eigen::Vector3d> step;
   if (odometry) step = odometry->translation();
   ego_motion_.update(pyramid, static_cast<double>(interval_s), turn, step, prediction);
-  if (odometry) odometry_doubted_ = !prediction.confirmed;
   if (!measured) return;
   if (prediction.confirmed && (gyro_bias_.isTrusted() || !prediction.translation.isZero())) {
     // The rotation that is left when translation has its part: parallax does not look like a bias.

@@ -8,8 +8,7 @@
 namespace tet_line_tracker {
 namespace {
 
-constexpr std::size_t kMaxSamples = 4000;  // if nobody ever asks
-constexpr double kMaxCoordinate = 1e9;     // [m]
+constexpr double kMaxCoordinate = 1e9;  // [m]
 constexpr double kMaxNonOrthogonal = 1e-3;
 
 }  // namespace
@@ -19,30 +18,22 @@ void OdometryInterpolator::add(std::int64_t stamp_ns, const Eigen::Isometry3d& o
   if (!(odometry_from_body.translation().cwiseAbs().maxCoeff() <= kMaxCoordinate)) return;
   const Eigen::Matrix3d& rotation = odometry_from_body.linear();
   if (!((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() < kMaxNonOrthogonal)) return;
-  if (!samples_.empty()) {
-    const std::int64_t last = samples_.back().stamp_ns;
-    if (stamp_ns < last - kMaxGapNs) {
-      samples_.clear();
-    } else if (stamp_ns <= last) {
-      return;
-    }
-  }
-  samples_.push_back({stamp_ns, Eigen::Quaterniond(rotation), odometry_from_body.translation()});
-  if (samples_.size() > kMaxSamples) samples_.pop_front();
+  samples_.add({stamp_ns, Eigen::Quaterniond(rotation), odometry_from_body.translation()}, kMaxGapNs);
 }
 
 std::optional<Eigen::Isometry3d> OdometryInterpolator::poseAt(std::int64_t stamp_ns) const {
+  const std::deque<Sample>& samples = samples_.all();
   const auto after =
-      std::lower_bound(samples_.begin(), samples_.end(), stamp_ns,
+      std::lower_bound(samples.begin(), samples.end(), stamp_ns,
                        [](const Sample& sample, std::int64_t stamp) { return sample.stamp_ns < stamp; });
-  if (after == samples_.end()) return std::nullopt;
+  if (after == samples.end()) return std::nullopt;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   if (after->stamp_ns == stamp_ns) {
     pose.linear() = after->rotation.toRotationMatrix();
     pose.translation() = after->translation;
     return pose;
   }
-  if (after == samples_.begin()) return std::nullopt;
+  if (after == samples.begin()) return std::nullopt;
   const Sample& a = *std::prev(after);
   const Sample& b = *after;
   if (b.stamp_ns - a.stamp_ns > kMaxGapNs) return std::nullopt;
@@ -59,18 +50,15 @@ std::optional<Eigen::Isometry3d> OdometryInterpolator::motion(std::int64_t from_
   const std::optional<Eigen::Isometry3d> from = poseAt(from_ns);
   const std::optional<Eigen::Isometry3d> to = poseAt(to_ns);
   if (!from || !to) return std::nullopt;
-  for (std::size_t i = 1; i < samples_.size(); ++i) {
-    const bool inside = samples_[i - 1].stamp_ns >= from_ns && samples_[i].stamp_ns <= to_ns;
-    if (inside && samples_[i].stamp_ns - samples_[i - 1].stamp_ns > kMaxGapNs) return std::nullopt;
+  const std::deque<Sample>& samples = samples_.all();
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const bool inside = samples[i - 1].stamp_ns >= from_ns && samples[i].stamp_ns <= to_ns;
+    if (inside && samples[i].stamp_ns - samples[i - 1].stamp_ns > kMaxGapNs) return std::nullopt;
   }
   const Eigen::Isometry3d motion = to->inverse() * *from;
   const double seconds = 1e-9 * static_cast<double>(to_ns - from_ns);
   if (!(motion.translation().norm() <= kMaxSpeed * seconds)) return std::nullopt;
   return motion;
-}
-
-void OdometryInterpolator::forgetBefore(std::int64_t stamp_ns) {
-  while (samples_.size() > 2 && samples_[1].stamp_ns <= stamp_ns) samples_.pop_front();
 }
 
 }  // namespace tet_line_tracker

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 
 #include <Eigen/Geometry>
+
+#include "motion/stamped_samples.h"
 
 namespace tet_line_tracker {
 
@@ -20,7 +21,7 @@ class OdometryInterpolator {
   std::optional<Eigen::Isometry3d> motion(std::int64_t from_ns, std::int64_t to_ns) const;
 
   /// Forgets poses that are not needed from `stamp_ns` on.
-  void forgetBefore(std::int64_t stamp_ns);
+  void forgetBefore(std::int64_t stamp_ns) { samples_.forgetBefore(stamp_ns); }
 
   static constexpr std::int64_t kMaxGapNs = 500000000;
   /// Whatever is faster was moved by hand: a corrected or restarted estimate [m/s].
@@ -35,7 +36,7 @@ class OdometryInterpolator {
   /// Nothing where the poses do not cover the stamp.
   std::optional<Eigen::Isometry3d> poseAt(std::int64_t stamp_ns) const;
 
-  std::deque<Sample> samples_;
+  StampedSamples<Sample> samples_;
 };
 
 }  // namespace tet_line_tracker

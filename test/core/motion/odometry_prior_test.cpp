@@ -130,22 +130,35 @@ TEST_F(OdometryPriorTest, TellsHowMuchLongerAStepIsWhereCornersCannot) {
   EXPECT_NEAR(see(at({0.35, 0, 0}), at({0.35, 0, 0}), true).step_ratio, 2.5, 1e-6);
 }
 
-TEST_F(OdometryPriorTest, AWrongTurnCostsItTheTrustUntilItIsRightAgain) {
+TEST_F(OdometryPriorTest, AWrongTurnCostsAnotherTryAndIsReplacedByWhatCornersShow) {
   const auto pose = [](int k) { return at({0.1 * k, 0.0, 0.0}, {0.0, 1.0 * k, 0.0}); };
   for (int k = 0; k < 3; ++k) see(pose(k));
-  // Off by 50 degrees in one image, and in the next once more.
-  const auto wrong = [&](int k) { return at(pose(k).position, {50.0 * (k - 2), 1.0 * k, 0.0}); };
-  see(pose(3), wrong(3));
-  const MotionPrediction doubted = see(pose(4), wrong(4));
-  EXPECT_STREQ(doubted.sourceName(), "image");
-  EXPECT_TRUE(doubted.confirmed);
-  const Eigen::Matrix3d turn = pose(4).camera_from_world * pose(3).camera_from_world.transpose();
-  EXPECT_LT(so3Log(doubted.rotation.transpose() * turn).norm(), 1.0 * kDegree);
-  see(pose(5), wrong(5));
+  // Off by 50 degrees from each image to the next.
+  for (int k = 3; k < 5; ++k) {
+    const MotionPrediction motion = see(pose(k), at(pose(k).position, {50.0 * (k - 2), 1.0 * k, 0.0}));
+    EXPECT_STREQ(motion.sourceName(), "image");
+    EXPECT_TRUE(motion.confirmed);
+    const Eigen::Matrix3d turn = pose(k).camera_from_world * pose(k - 1).camera_from_world.transpose();
+    EXPECT_LT(so3Log(motion.rotation.transpose() * turn).norm(), 1.0 * kDegree);
+  }
   // Wrong by a fixed turn of its frame, but right from image to image.
   MotionPrediction last;
-  for (int k = 6; k < 9; ++k) last = see(pose(k), at(pose(k).position, {150.0, 1.0 * k, 0.0}));
+  for (int k = 5; k < 8; ++k) last = see(pose(k), at(pose(k).position, {150.0, 1.0 * k, 0.0}));
+  EXPECT_STREQ(last.sourceName(), "odometry");
   EXPECT_TRUE(last.confirmed);
+}
+
+TEST_F(OdometryPriorTest, SaysNothingOfTheFirstImageAfterAReset) {
+  see(at({0, 0, 0}), at({0, 0, 0}), true);
+  prior_.reset();
+  EXPECT_STREQ(see(at({0.2, 0, 0}), at({0.2, 0, 0}), true).sourceName(), "none");
+}
+
+TEST_F(OdometryPriorTest, AStandingCameraHasNoDirectionOfTranslation) {
+  see(at({0, 0, 0}), at({0, 0, 0}), true);
+  const MotionPrediction motion = see(at({0.001, 0, 0}), at({0.001, 0, 0}), true);
+  EXPECT_STREQ(motion.sourceName(), "odometry");
+  EXPECT_FALSE(motion.translates());
 }
 
 TEST_F(OdometryPriorTest, WithoutItsPoseOrItsMessagesTheImagesStandIn) {

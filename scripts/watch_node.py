@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Watches the resident memory and the ids of a node that publishes /line_tracker/lines; called by soak.sh.
 
-    watch_memory.py PID MINUTES
+    watch_node.py PID MINUTES
 
 The first third of the time is for warming up. Fails when the peak of the last third is more than 2 MB above that of the
 second (2 % and 4 MB in runs of less than 10 000 images, which may not be warm), when an id comes back after it was missing
@@ -80,7 +80,7 @@ def main():
             except ValueError as fault:
                 faults.append(str(fault))
 
-    rospy.init_node('watch_memory', disable_signals=True)
+    rospy.init_node('watch_node', disable_signals=True)
     rospy.Subscriber('/line_tracker/lines', rospy.AnyMsg, take, queue_size=1000)
     start = time.monotonic()
     peaks = [0.0, 0.0, 0.0]
