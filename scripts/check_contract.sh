@@ -14,8 +14,8 @@ seconds=${1:-60}
 seed=${2:-1}
 . "$(dirname "$0")/environment.sh"
 
-requirePackages "${packages_build[@]}" "${packages_run[@]}"
 requireLocalhost
+requirePackages "${packages_build[@]}" "${packages_run[@]}"
 scripts/build.sh
 sourceSetup "$build/devel/setup.bash"
 tools=$build/devel/lib/tet_line_tracker

@@ -19,8 +19,8 @@ done
 
 packages=("${packages_build[@]}" "${packages_run[@]}")
 if ! $headless; then packages+=("${packages_rviz[@]}"); fi
-requirePackages "${packages[@]}"
 requireLocalhost
+requirePackages "${packages[@]}"
 scripts/build.sh
 sourceSetup "$build/devel/setup.bash"
 tools=$build/devel/lib/tet_line_tracker

@@ -97,19 +97,31 @@ requireLocalhost() {
     fail "the name localhost does not resolve, and ROS needs it: add the line '127.0.0.1 localhost' to /etc/hosts"
 }
 
-# Builds the named targets with the sanitizers that `sanitizers` names, in a folder of their own.
+# Builds the named targets with the sanitizers that `sanitizers` names, in a folder of their own; those of "fuzzer" by clang, with
+# libFuzzer as the driver of the fuzzers; "coverage" has the counters of coverage.sh alone.
 sanitizers=address,undefined
 sanitized=$build/sanitized
 buildSanitized() {
+  local options=() flags=-fsanitize=$sanitizers
   requirePackages "${packages_build[@]}" "${packages_test[@]}"
-  if [ "$sanitizers" = thread ]; then sanitized=$build/sanitized_thread; fi
+  case $sanitizers in
+    thread) sanitized=$build/sanitized_thread ;;
+    fuzzer)
+      requirePackages "${packages_libfuzzer[@]}"
+      sanitized=$build/sanitized_fuzzer
+      options=(-DCMAKE_CXX_COMPILER=clang++ -DTET_LIBFUZZER=ON)
+      flags="-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined" ;;
+    coverage)
+      sanitized=$build/counted
+      flags=--coverage ;;
+    # With counters for coverage.sh --core.
+    *) flags+=" -fno-sanitize-recover=undefined --coverage" ;;
+  esac
   mkdir -p "$sanitized/devel/lib/python3/dist-packages"
   if [ ! -e "$sanitized/build.ninja" ]; then
-    local launcher=() more=
-    if [ "$sanitizers" != thread ]; then more="-fno-sanitize-recover=undefined "; fi
-    if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
-    cmake -S . -B "$sanitized" -G Ninja -DCMAKE_BUILD_TYPE=None -DCATKIN_ENABLE_TESTING=ON -DTET_FUZZ=ON "${launcher[@]}" \
-      -DCMAKE_CXX_FLAGS="-O1 -g1 -fsanitize=$sanitizers $more-fno-omit-frame-pointer" \
+    if command -v ccache >/dev/null; then options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
+    cmake -S . -B "$sanitized" -G Ninja -DCMAKE_BUILD_TYPE=None -DCATKIN_ENABLE_TESTING=ON -DTET_FUZZ=ON "${options[@]}" \
+      -DCMAKE_CXX_FLAGS="-O1 -g1 $flags -fno-omit-frame-pointer" \
       >"$sanitized/configure.log" 2>&1 || { cat "$sanitized/configure.log" >&2; fail "CMake could not configure the sanitized build"; }
   fi
   cmake --build "$sanitized" --target "$@"
@@ -135,6 +147,15 @@ camera_matrix: {rows: 3, cols: 3, data: [$4, 0, $5, 0, $4, $6, 0, 0, 1]}
 distortion_model: $7
 distortion_coefficients: {rows: 1, cols: $(wc -w <<<"${8//,/ }"), data: [$8]}
 END
+}
+
+# greyRectangle PIXELS: an image (PGM) with a rectangle that is shifted by so many pixels.
+greyRectangle() {
+  awk -v shift="$1" 'BEGIN {
+    print "P2 320 240 255"
+    for (y = 0; y < 240; ++y)
+      for (x = 0; x < 320; ++x) print (x >= 80 + shift && x < 240 + shift && y >= 60 && y < 180) ? 180 : 40
+  }'
 }
 
 # Starts a master on a free port, so that parameters and topics of somebody else's stay as they are. Whatever is in

@@ -1,17 +1,36 @@
 #!/usr/bin/env bash
-# Feeds random mutations of image messages, camera_info, calibration files and dataset tables to their readers, built
-# with sanitizers in build/sanitized. Any crash, report or error that was not promised fails.
+# Feeds random input to what takes data from outside: image messages, camera_info, calibration files, dataset tables, images through
+# the tracker with any parameters and lens, lines and poses into the mapper and the bridge. Built with AddressSanitizer and
+# UndefinedBehaviorSanitizer. Any crash, report, broken promise or error that was not promised fails, and leaves its input.
 #
-#   scripts/fuzz.sh [SECONDS_EACH [RANDOM_SEED]]
+#   scripts/fuzz.sh [--libfuzzer] [SECONDS_EACH [RANDOM_SEED]]
+#
+# SECONDS_EACH: 60. --libfuzzer: guided by coverage; what it has learned stays in build/sanitized_fuzzer/corpus. Else mutations of
+# the seeds in test/fuzz/seeds, or bytes of any length.
 set -euo pipefail
 . "$(dirname "$0")/environment.sh"
 
+guided=false
+if [ "${1:-}" = --libfuzzer ]; then
+  guided=true
+  sanitizers=fuzzer
+  shift
+fi
 answerHelp "$@"
-readers=(calibration_file camera_info image_message text_table)
+readers=(calibration_file camera_info image_message line_stream line_tracker text_table)
 buildSanitized "${readers[@]/#/fuzz_}"
 cd "$sanitized"
 for reader in "${readers[@]}"; do
+  program=$sanitized/devel/lib/tet_line_tracker/fuzz_$reader
   seeds=$project/test/fuzz/seeds/$reader
   if [ ! -e "$seeds" ]; then seeds=$(mktemp -d); fi
-  "$sanitized/devel/lib/tet_line_tracker/fuzz_$reader" "${1:-60}" "$seeds" ${2:+"$2"} </dev/null
+  if $guided; then
+    corpus=$sanitized/corpus/$reader
+    mkdir -p "$corpus"
+    "$program" "$corpus" "$seeds" -max_total_time="${1:-60}" -max_len=16384 -timeout=60 -rss_limit_mb=4096 -verbosity=0 -print_final_stats=1 \
+      ${2:+-seed="$2"} </dev/null >"$reader.log" 2>&1 || { tail -n 40 "$reader.log" >&2; fail "fuzz_$reader found something (the input is in $sanitized)"; }
+    echo "fuzz_$reader: $(sed -n 's/^stat::number_of_executed_units: *//p' "$reader.log") inputs, $(find "$corpus" -type f | wc -l) that reach something new, nothing found"
+  else
+    "$program" "${1:-60}" "$seeds" ${2:+"$2"} </dev/null
+  fi
 done

@@ -4,8 +4,9 @@
   lens_table.py TRACKER=FILE.csv ...
 
 Bags are named LENS-MOTION-TRACKER."""
-import csv
 import sys
+
+from measures_table import print_table, rows_of
 
 CLASSES = ["30_60", "60_100", "100_160", "160_250", "250_up"]
 TITLES = ["30-60 px", "60-100 px", "100-160 px", "160-250 px", "over 250 px"]
@@ -15,8 +16,7 @@ FEWEST = 50  # judged lines of a cell
 
 
 def read(path):
-    with open(path, newline="") as file:
-        return {tuple(row["bag"].split("-")[:2]): row for row in csv.DictReader(file)}
+    return {tuple(row["bag"].split("-")[:2]): row for row in rows_of(path)}
 
 
 def value(row, length, name):
@@ -29,14 +29,6 @@ def value(row, length, name):
 
 def cell(median, ninety):
     return "-" if median is None else "%.2f / %.2f" % (median, ninety)
-
-
-def print_table(head, rows):
-    print("| " + " | ".join(head) + " |")
-    print("|" + "---|" * len(head))
-    for row in rows:
-        print("| " + " | ".join(row) + " |")
-    print()
 
 
 def worst_over_motions(rows, lens, length):

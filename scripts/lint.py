@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""Checks what a compiler does not: format, clang-tidy, catkin_lint, rooms, paths of one machine, scripts' syntax.
+"""Checks what a compiler does not: format, clang-tidy, catkin_lint, doxygen, rooms, paths of one machine, scripts' syntax.
+
+    lint.py BUILD
 
 Called by test.sh. Writes test_results/lint.xml into the build folder; exits 1 when a check failed. A check whose
 tool is not installed is skipped.
@@ -205,6 +207,13 @@ def check_catkin(_):
     run('catkin_lint', '--strict', '--offline', '.')
 
 
+def check_doxygen(_):
+    require('doxygen')
+    output = run('doxygen')  # with what Doxyfile says it prints warnings alone
+    if output:
+        raise RuntimeError(output)
+
+
 def check_paths(files):
     """Paths of one machine work nowhere else."""
     found = []
@@ -240,9 +249,12 @@ def check_xml(files):
 
 
 def main():
+    if len(sys.argv) != 2 or not os.path.isdir(sys.argv[1]):
+        print(__doc__)
+        return 2
     build = sys.argv[1]
     files = project_files()
-    checks = [('clang_format', check_format), ('catkin_lint', check_catkin), ('machine_paths', check_paths),
+    checks = [('clang_format', check_format), ('catkin_lint', check_catkin), ('doxygen', check_doxygen), ('machine_paths', check_paths),
               ('rooms', check_rooms), ('std_headers', check_std_headers), ('script_syntax', check_scripts), ('xml_syntax', check_xml),
               ('clang_tidy', lambda names: check_tidy(names, build))]
     suite = ElementTree.Element('testsuite', name='lint')

@@ -10,8 +10,8 @@ set -euo pipefail
 
 answerHelp "$@"
 seconds=${1:-60}
-requirePackages "${packages_build[@]}" "${packages_run[@]}"
 requireLocalhost
+requirePackages "${packages_build[@]}" "${packages_run[@]}"
 scripts/build.sh
 cmake --build "$build" --target load_generator >"$build/load.log"
 sourceSetup "$build/devel/setup.bash"

@@ -4,9 +4,10 @@
 #   scripts/measure_all.sh RESULTS [--short] [STEP ...]
 #
 # RESULTS: folder for bags and tables. A step that is done is not done again: after an interruption, start the same command
-# again; results of another commit are refused. STEP: only these, of tracking, tracking_3, priors, still, motion, lens, map, paper,
-# speed and contract. --short: flights of 2 s, to try the command; speed takes as long as ever. All of it takes in the order of an hour on
-# two processors; the list at the end has the minutes of each step. The times of speed and paper count only where nothing else runs.
+# again; results of another commit are refused. STEP: only these, of tracking, tracking_3, priors, still, motion, lens, effects,
+# methods, real, map, paper, speed, contract and vio (a step where TET_PL_VINS names a checkout of PL-VINS). --short: flights of 2 s,
+# to try the command; speed takes as long as ever. All of it takes in the order of an hour on two processors, vio as long again; the
+# list at the end has the minutes of each step. The times of methods, speed, paper and vio count only where nothing else runs.
 set -euo pipefail
 short=false
 for argument in "$@"; do
@@ -35,7 +36,8 @@ for dataset in euroc:euroc_v1_01/mav0 icl_nuim:icl_nuim_of_kt0 tum:tum_fr3_struc
 done
 
 folder=$(printf %q "$results")
-steps=(tracking tracking_3 priors still motion lens map paper speed contract)
+steps=(tracking tracking_3 priors still motion lens effects methods real map paper speed contract)
+if [ -n "${TET_PL_VINS:-}" ]; then steps+=(vio); fi
 declare -A pages=(
   [tracking]="docs/benchmarks/tracking.md, Every regime and Part by part"
   [tracking_3]="docs/benchmarks/tracking.md, Every regime"
@@ -43,10 +45,14 @@ declare -A pages=(
   [still]="docs/benchmarks/tracking.md, Standing still"
   [motion]="docs/benchmarks/motion.md"
   [lens]="docs/benchmarks/lens.md"
+  [effects]="docs/benchmarks/effects.md"
+  [methods]="docs/benchmarks/methods.md"
+  [real]="docs/benchmarks/real.md"
   [map]="docs/vio.md, How good a map the tracks give"
   [paper]="docs/benchmarks/paper.md and docs/images (RESULTS/paper/results.md, *.png)"
   [speed]="docs/benchmarks/speed.md"
-  [contract]="docs/vio.md, PL-VINS")
+  [contract]="docs/vio.md, PL-VINS"
+  [vio]="docs/benchmarks/vio.md")
 declare -A commands=(
   [tracking]="scripts/measure_tracking.sh $folder/tracking '1001 1002' $(seconds 20)"
   [tracking_3]="scripts/measure_tracking.sh $folder/tracking_3 1003 $(seconds 20) 'fast corridor all'"
@@ -54,10 +60,14 @@ declare -A commands=(
   [still]="scripts/measure_tracking.sh $folder/still 1001 $(seconds 60) still"
   [motion]="scripts/measure_motion.sh $folder/motion '1001 1002' $(seconds 20)"
   [lens]="scripts/measure_lens.sh $folder/lens 1001 $(seconds 10)"
+  [effects]="scripts/measure_effects.sh $folder/effects 1001 $(seconds 6)"
+  [methods]="scripts/measure_methods.sh $folder/methods 1001 $(seconds 10)"
+  [real]="scripts/measure_real.sh $folder/real"
   [map]="scripts/measure_map.sh $folder/map 1001 $(seconds 40)"
   [paper]="python3 scripts/reproduce_paper $folder/paper --simulate $(seconds 6) ${datasets[*]}"
   [speed]="scripts/benchmark.sh"
-  [contract]="scripts/check_contract.sh $(if $short; then echo 10; else echo 60; fi)")
+  [contract]="scripts/check_contract.sh $(if $short; then echo 10; else echo 60; fi)"
+  [vio]="scripts/vio_benchmark.sh $(printf %q "${TET_PL_VINS:-}") $folder/vio --seconds $(if $short; then echo 12; else echo 30; fi)")
 
 chosen=("${arguments[@]}")
 if [ ${#chosen[@]} -eq 0 ]; then chosen=("${steps[@]}"); fi

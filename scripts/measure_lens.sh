@@ -8,9 +8,7 @@
 # Beside the default: its lines without knowledge of the bend (tet_chord), and LSD on undistorted images (lsd_remapped).
 set -euo pipefail
 . "$(dirname "$0")/measuring.sh"
-seed=${arguments[0]:-$(defaultSeeds)}
-seconds=${arguments[1]:-10}
-requireSeeds "$seed"
+takeSeedAndSeconds 10
 prepareTools
 
 # The others come with the package.

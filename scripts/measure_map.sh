@@ -8,9 +8,7 @@
 # with --tuning. SECONDS: of a flight (40).
 set -euo pipefail
 . "$(dirname "$0")/measuring.sh"
-seed=${arguments[0]:-$(defaultSeeds)}
-seconds=${arguments[1]:-40}
-requireSeeds "$seed"
+takeSeedAndSeconds 40
 prepareTools
 
 # Square images, whose largest circle is the field of view.

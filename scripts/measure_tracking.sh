@@ -9,7 +9,7 @@
 set -euo pipefail
 . "$(dirname "$0")/measuring.sh"
 . scripts/regimes.sh
-seeds=${arguments[0]:-$(defaultSeeds)}
+seeds=${arguments[0]:-$(defaultSeed)}
 seconds=${arguments[1]:-20}
 regimes=${arguments[2]:-slow fast corridor low gain shake rotation moving all}
 # Seeds and regimes are words.

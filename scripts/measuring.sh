@@ -1,11 +1,9 @@
 # What the scripts that measure on simulated flights start with; sourced, with the arguments of the script.
 #
-# Seeds from 1000 on are kept for tables in docs: what was tuned on a flight says nothing about other flights. Tuning uses seeds
-# below 1000 and the option --tuning, and its tables say so.
-#
 # Leaves `results`, the folder of the first argument, and `arguments`, those behind it.
 caller=$PWD
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
+. scripts/seeds.sh
 
 tuning=false
 arguments=()
@@ -21,22 +19,6 @@ done
 results=$(cd "$caller" && realpath -m "${arguments[0]}")
 arguments=("${arguments[@]:1}")
 
-# The seeds of a script that is given none.
-defaultSeeds() { if $tuning; then echo 1; else echo 1001; fi; }
-
-# requireSeeds SEED...: ends the script when one is on the wrong side.
-requireSeeds() {
-  local seed
-  for seed in "$@"; do
-    [[ $seed =~ ^[0-9]{1,9}$ ]] || fail "'$seed' is no seed; see --help"
-    if $tuning; then
-      [ "$seed" -lt 1000 ] || fail "seed $seed is kept for tables in docs: seeds for --tuning are below 1000"
-    else
-      [ "$seed" -ge 1000 ] || fail "seed $seed is for --tuning: tables in docs are of seeds from 1000 on"
-    fi
-  done
-}
-
 # heading WORDS: of a table.
 heading() {
   echo "== $*"
@@ -49,6 +31,13 @@ prepareTools() {
   scripts/build.sh
   sourceSetup "$build/devel/setup.bash"
   tools=$build/devel/lib/tet_line_tracker
+}
+
+# takeSeedAndSeconds SECONDS: sets `seed` and `seconds` from the arguments behind RESULTS; SECONDS where none are given.
+takeSeedAndSeconds() {
+  seed=${arguments[0]:-$(defaultSeed)}
+  seconds=${arguments[1]:-$1}
+  requireSeeds "$seed"
 }
 
 # simulate FLIGHT SEED OPTIONS...: renders a flight, once. One that is there must have been made with the same options.

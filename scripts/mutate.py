@@ -4,9 +4,9 @@
     mutate.py --list
     mutate.py FOLDER [NUMBER ...]
 
-FOLDER gets a copy of the source folder and a build of it. The core is a shared library there, so that a mutant costs
+FOLDER gets a copy of the source folder and a build of it. The core is a shared library there, so that a mutant of it costs
 one object file, one link and the tests. Those of the mutated room run first; where none of them fails, those of the
-rooms above it, up to the first room in which one does.
+rooms above it, up to the first room in which one does. Outside of the core the table names the tests of a mutation.
 """
 import collections
 import os
@@ -22,7 +22,7 @@ TABLE = 'scripts/mutations.txt'
 TIMEOUT_S = 300  # of a test program; some mutants never end
 MAX_SHOWN = 4  # tests that notice a mutation
 
-Mutation = collections.namedtuple('Mutation', 'number file purpose old new')
+Mutation = collections.namedtuple('Mutation', 'number file tests purpose old new')
 
 
 class Failure(Exception):
@@ -35,11 +35,12 @@ def mutations():
         lines = [line.rstrip('\n') for line in file if not line.startswith('#')]
     found = []
     for block in re.split(r'\n{2,}', '\n'.join(lines).strip()):
-        match = re.fullmatch(r'(src/core/\w+/\w+\.cpp): (.+)\n- (.+)\n\+ ?(.*)', block)
-        if match is None:
-            raise Failure('{}: not of the form "src/core/ROOM/FILE.cpp: WHAT", "- OLD", "+ NEW":\n{}'.format(
-                TABLE, block))
-        found.append(Mutation(len(found) + 1, *match.groups()))
+        match = re.fullmatch(r'(src/[\w/]+\.cpp)(?: \[([\w ]+)\])?: (.+)\n- (.+)\n\+ ?(.*)', block)
+        if match is None or (match[2] is None) != match[1].startswith('src/core/'):
+            raise Failure('{}: not of the form "src/core/ROOM/FILE.cpp: WHAT" or "src/FILE.cpp [TEST ...]: WHAT", "- OLD", '
+                          '"+ NEW":\n{}'.format(TABLE, block))
+        file, tests, *rest = match.groups()
+        found.append(Mutation(len(found) + 1, file, (tests or '').split(), *rest))
     for mutation in found:
         count = read(mutation.file).count(mutation.old)
         if count != 1:
@@ -119,8 +120,11 @@ def failed_tests(folder, program):
     return list(dict.fromkeys(names)) or ['{} crashes'.format(program)]
 
 
-def programs_of(file):
-    """Test programs that a change of a file of the core could make fail, by room, the nearest first."""
+def programs_of(mutation):
+    """Test programs that could notice a mutation, the nearest first: of the core by room, else those that are named."""
+    if mutation.tests:
+        return [mutation.tests]
+    file = mutation.file
     tests = rooms.core_tests(read(rooms.CORE))
     names = list(tests)
     own = os.path.splitext(os.path.basename(file))[0]
@@ -134,8 +138,8 @@ def killers(folder, mutation):
     original = read(path)
     write(path, original.replace(mutation.old, mutation.new))
     try:
-        build(folder, 'tet_line_tracker_core')
-        for programs in programs_of(mutation.file):
+        build(folder, *(mutation.tests or ['tet_line_tracker_core']))
+        for programs in programs_of(mutation):
             failed = [test for program in programs for test in failed_tests(folder, program)]
             if failed:
                 return failed
@@ -152,8 +156,8 @@ def outcome_of(noticed):
 
 
 def show(mutation, outcome=''):
-    print('{:2}  {:<36} {:<66} {}'.format(mutation.number, mutation.file[len('src/core/'):], mutation.purpose,
-                                          outcome).rstrip(), flush=True)
+    file = re.sub('^src/(core/)?', '', mutation.file)
+    print('{:3}  {:<36} {:<66} {}'.format(mutation.number, file, mutation.purpose, outcome).rstrip(), flush=True)
 
 
 def main():
@@ -171,7 +175,7 @@ def main():
 
     copy_source(os.path.join(folder, 'source'))
     configure(folder)
-    programs = list(dict.fromkeys(program for mutation in chosen for room in programs_of(mutation.file)
+    programs = list(dict.fromkeys(program for mutation in chosen for room in programs_of(mutation)
                                   for program in room))
     build(folder, 'tet_line_tracker_core', *programs)
     for program in programs:

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Mutation testing of the core: changes one line of it at a time and sees which test notices. Exit status 1 when a
-# mutation survives all tests.
+# Mutation testing of the core, the bridge and the readers: changes one line at a time and sees which test notices. Exit
+# status 1 when a mutation survives all tests.
 #
 #   scripts/mutate.sh [--list] [NUMBER ...]
 #

@@ -9,8 +9,8 @@ set -euo pipefail
 . "$(dirname "$0")/environment.sh"
 
 answerHelp "$@"
-requirePackages "${packages_build[@]}" "${packages_run[@]}"
 requireLocalhost
+requirePackages "${packages_build[@]}" "${packages_run[@]}"
 scripts/build.sh
 sourceSetup "$build/devel/setup.bash"
 requireFlight

@@ -20,9 +20,9 @@ done
 
 packages=("${packages_build[@]}" "${packages_run[@]}" "${packages_test[@]}")
 if [ $lint = lint ]; then packages+=("${packages_lint[@]}"); fi
+requireLocalhost
 requirePackages "${packages[@]}"
 scripts/build.sh --tests
-requireLocalhost
 sourceSetup "$build/devel/setup.bash"
 
 rm -rf "$build/test_results"

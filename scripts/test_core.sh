@@ -8,6 +8,7 @@
 # e.g. trixie; else this machine's.
 set -euo pipefail
 . "$(dirname "$0")/environment.sh"
+. scripts/fresh_root.sh
 
 testCore() {
   local outside prefix=$build/core/prefix
@@ -35,38 +36,13 @@ testCore() {
   grep -q '^line [0-9]*: (' "$outside/lines" || fail "the program outside the source folder tracked no line"
 }
 
-# An image with a rectangle that is shifted by so many pixels.
-greyRectangle() {
-  awk -v shift="$1" 'BEGIN {
-    print "P2 320 240 255"
-    for (y = 0; y < 240; ++y)
-      for (x = 0; x < 320; ++x) print (x >= 80 + shift && x < 240 + shift && y >= 60 && y < 180) ? 180 : 40
-  }'
-}
-
 testInFreshRoot() {
-  local mirror suite root installed
-  [ "$(id -u)" = 0 ] || fail "--fresh-root needs root"
-  requirePackages "${packages_fresh_root[@]}"
-  # From where this machine takes its own packages.
-  read -r mirror suite < <(
-    apt-get indextargets --format '$(COMPONENT) $(REPO_URI) $(CODENAME)' 'Identifier: Packages' 'Origin: Debian' |
-      awk '$1 == "main" && $3 !~ /-/ { print $2, $3; exit }') ||
-    fail "apt-get indextargets names no archive of Debian: start on Debian, after apt-get update"
-  suite=${1:-$suite}
-  root=$(mktemp -d)
-  trap "umount '$root/proc' 2>/dev/null || true; rm -rf --one-file-system '$root'" EXIT
-  mkdir -p "$build"
-  echo "Installing Debian $suite from $mirror ..."
-  debootstrap --variant=minbase "$suite" "$root" "$mirror" >"$build/debootstrap.log" 2>&1 ||
-    { tail -n 5 "$build/debootstrap.log" >&2; fail "debootstrap failed (build/debootstrap.log)"; }
-  mountpoint -q "$root/proc" || mount -t proc proc "$root/proc" || true
-  echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/force-unsafe-io"
-  mkdir "$root/project"
-  cp -r cmake config examples include package.xml scripts src test "$root/project"
-  # With the environment of a new shell: nothing of this machine's ROS.
-  env -i HOME=/ PATH=/usr/sbin:/usr/bin:/sbin:/bin chroot "$root" project/scripts/test_core.sh </dev/null
-  installed=$(chroot "$root" dpkg -l | awk '$1 ~ /^.i/ { print $2 }')
+  local installed
+  makeFreshRoot "$@"
+  mkdir "$fresh_root/project"
+  cp -r cmake config examples include package.xml scripts src test "$fresh_root/project"
+  inFreshRoot project/scripts/test_core.sh
+  installed=$(inFreshRoot dpkg -l | awk '$1 ~ /^.i/ { print $2 }')
   if grep -E '^(lib)?(ros|catkin|nodelet|pluginlib|cv-bridge|python3-(ros|catkin))' <<<"$installed"; then
     fail "these packages of ROS were installed in the root"
   fi

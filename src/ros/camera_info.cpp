@@ -1,6 +1,7 @@
 #include "camera_info.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -71,6 +72,11 @@ std::string readoutProblem(const sensor_msgs::CameraInfo& info) {
   return {};
 }
 
+/// Equal, or both NaN: a calibration of NaN is the same one each time it comes.
+bool sameNumber(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
 }  // namespace
 
 CameraCalibration fromCameraInfo(const sensor_msgs::CameraInfo& info) {
@@ -116,6 +122,14 @@ CameraChoice chooseCamera(const sensor_msgs::CameraInfo& info, std::uint32_t wid
   const std::string problem = sizeProblem(info, width, height);
   if (choice.camera == nullptr || problem.empty()) return choice;
   return {nullptr, problem};
+}
+
+bool sameCalibration(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b) {
+  return a.distortion_model == b.distortion_model && a.width == b.width && a.height == b.height &&
+         a.binning_x == b.binning_x && a.binning_y == b.binning_y && a.roi.x_offset == b.roi.x_offset &&
+         a.roi.y_offset == b.roi.y_offset && a.roi.width == b.roi.width && a.roi.height == b.roi.height &&
+         std::equal(a.K.begin(), a.K.end(), b.K.begin(), b.K.end(), sameNumber) &&
+         std::equal(a.D.begin(), a.D.end(), b.D.begin(), b.D.end(), sameNumber);
 }
 
 std::string sizeProblem(const sensor_msgs::CameraInfo& info, std::uint32_t width, std::uint32_t height) {

@@ -32,6 +32,9 @@ CameraChoice chooseCamera(const sensor_msgs::CameraInfo& info);
 /// size. A side of 0 in the camera_info fits every image.
 CameraChoice chooseCamera(const sensor_msgs::CameraInfo& info, std::uint32_t width, std::uint32_t height);
 
+/// Whether fromCameraInfo() gives the same of both, NaN included.
+bool sameCalibration(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b);
+
 /// Size of the images that a camera_info is for, and how they come from the full one; for people.
 std::string imageText(const sensor_msgs::CameraInfo& info);
 

@@ -37,13 +37,21 @@ TrackPainter::Style styleOf(const NodeParameters& parameters) {
 }  // namespace
 
 LinePublisher::LinePublisher(ros::NodeHandle& node, const NodeParameters& parameters)
-    : throttle_(parameters.publish_rate),
+    : publish_rate_(parameters.publish_rate),
+      throttle_(parameters.publish_rate),
       marker_builder_(parameters.marker_ids),
       painter_(styleOf(parameters)),
       lines_(node.advertise<LineArray>("lines", kLinesQueue)),
       markers_(node.advertise<visualization_msgs::MarkerArray>("markers", kDisplayQueue)),
       statistics_(node.advertise<TrackingStatistics>("statistics", kLinesQueue)),
       debug_image_(image_transport::ImageTransport(node).advertise("debug_image", kDisplayQueue)) {}
+
+void LinePublisher::setParameters(const NodeParameters& parameters) {
+  if (parameters.publish_rate != publish_rate_) throttle_ = PublishThrottle(parameters.publish_rate);
+  publish_rate_ = parameters.publish_rate;
+  marker_builder_.setIds(parameters.marker_ids);
+  painter_.setStyle(styleOf(parameters));
+}
 
 bool LinePublisher::publish(const LineFrame& frame, const std::string& frame_id, const cv::Mat& gray,
                             std::uint64_t replaced) {

@@ -19,11 +19,15 @@
 namespace tet_line_tracker {
 
 /// Publishes the lines of an image, and while somebody listens the picture, the markers and the statistics of
-/// them. publish() and setCamera() are for one thread; the rest may be called from any.
+/// them. publish(), setCamera() and setParameters() are for one thread at a time; the rest may be called from
+/// any.
 class LinePublisher {
  public:
   /// Advertises below `node`.
   LinePublisher(ros::NodeHandle& node, const NodeParameters& parameters);
+
+  /// For the images to come. The rate starts anew when it changes.
+  void setParameters(const NodeParameters& parameters);
 
   /// The picture shows lines as this camera bends them; nullptr: straight.
   void setCamera(std::shared_ptr<const CameraModel> camera) { painter_.setCamera(std::move(camera)); }
@@ -36,6 +40,7 @@ class LinePublisher {
   std::string debugImageTopic() const { return debug_image_.getTopic(); }
 
  private:
+  double publish_rate_;  ///< of throttle_
   PublishThrottle throttle_;
   MarkerBuilder marker_builder_;
   TrackPainter painter_;

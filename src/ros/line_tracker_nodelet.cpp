@@ -1,7 +1,12 @@
 #include "line_tracker_nodelet.h"
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include <pluginlib/class_list_macros.hpp>
 
+#include "encoded_image.h"
 #include "image_conversion.h"
 #include "mask_file.h"
 
@@ -34,17 +39,20 @@ void LineTrackerNodelet::onInit() {
   advertise();
   worker_ = std::thread(&LineTrackerNodelet::work, this);
   subscribe();
+  serveParameters();
 }
 
 void LineTrackerNodelet::loadParameters() {
-  tet_line_tracker::loadParameters(getPrivateNodeHandle(), tracker_parameters_, parameters_);
+  LineTrackerParameters parameters;
+  tet_line_tracker::loadParameters(getPrivateNodeHandle(), parameters, parameters_);
   checkImageTransport(getNodeHandle(), getPrivateNodeHandle());
-  tracker_ = std::make_unique<LineTracker>(tracker_parameters_);
+  tracker_ = std::make_unique<LineTracker>(parameters);
+  noteTracker();
   mask_ = readMask(parameters_.mask);
   tracker_->setMask(mask_);
   imu_.extrinsic.set(imuRotation(parameters_.imu_rotation));
   odometry_.extrinsic.set(odometryExtrinsic(parameters_.odometry_extrinsic));
-  queue_ = std::make_unique<NewestQueue<sensor_msgs::ImageConstPtr>>(parameters_.queue_size);
+  queue_ = std::make_unique<NewestQueue<ImageMessage>>(parameters_.queue_size);
 }
 
 void LineTrackerNodelet::advertise() {
@@ -63,8 +71,8 @@ void LineTrackerNodelet::subscribe() {
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   const image_transport::TransportHints hints("raw", no_delay, private_node);
   // Before any callback, which may come while its subscriber is not assigned yet.
-  image_topic_ = node.resolveName("image");
-  if (hints.getTransport() != "raw") image_topic_ += "/" + hints.getTransport();
+  const std::string image_topic = node.resolveName("image");
+  image_topic_ = topicOfTransport(image_topic, hints.getTransport());
   camera_info_topic_ = node.resolveName("camera_info");
   imu_.topic = node.resolveName("imu");
   odometry_.topic = node.resolveName("odometry");
@@ -76,17 +84,56 @@ void LineTrackerNodelet::subscribe() {
   imu_subscriber_ = node.subscribe("imu", kMotionQueue, &LineTrackerNodelet::onImu, this, no_delay);
   odometry_subscriber_ =
       node.subscribe("odometry", kMotionQueue, &LineTrackerNodelet::onOdometry, this, no_delay);
-  image_subscriber_ = image_transport::ImageTransport(node).subscribe(
-      "image", kTransportQueue, &LineTrackerNodelet::onImage, this, hints);
+  image_subscription_ = std::make_unique<ImageSubscription>(
+      node, image_topic, kTransportQueue, [this](const ImageMessage& image) { onImage(image); }, hints);
   // The wall clock: simulated time stands still exactly when there is something to warn of.
   timer_ = node.createWallTimer(ros::WallDuration(1.0), &LineTrackerNodelet::onTimer, this);
   NODELET_INFO("tracks lines of %s (%s), method %s, detector %s", image_topic_.c_str(),
-               image_subscriber_.getTransport().c_str(), tracker_parameters_.method.c_str(),
+               hints.getTransport().c_str(), tracker_->parameters().method.c_str(),
                tracker_->detectorName().c_str());
   for (const std::string& note : tracker_->notes()) NODELET_WARN("%s", note.c_str());
 }
 
-void LineTrackerNodelet::onImage(const sensor_msgs::ImageConstPtr& image) {
+void LineTrackerNodelet::serveParameters() {
+  ReconfigureServer::Handlers handlers;
+  handlers.apply = [this](const auto& tracker, const auto& parameters) {
+    applyParameters(tracker, parameters);
+  };
+  handlers.inform = [this](const std::string& sentence) { NODELET_INFO("%s", sentence.c_str()); };
+  handlers.warn = [this](const std::string& sentence) { NODELET_WARN("%s", sentence.c_str()); };
+  reconfigure_server_ = std::make_unique<ReconfigureServer>(getPrivateNodeHandle(), tracker_->parameters(),
+                                                            parameters_, std::move(handlers));
+}
+
+void LineTrackerNodelet::applyParameters(const LineTrackerParameters& tracker,
+                                         const NodeParameters& parameters) {
+  const std::lock_guard<std::mutex> lock(tracker_mutex_);
+  // What may throw comes before what changes.
+  const bool other_mask = parameters.mask != parameters_.mask;
+  const cv::Mat mask = other_mask ? readMask(parameters.mask) : cv::Mat();
+  const std::vector<std::string> notes = tracker_->notes();
+  if (tracker_->setParameters(tracker)) NODELET_INFO("the next image starts a new epoch");
+  if (other_mask) {
+    mask_ = mask;
+    tracker_->setMask(mask_);
+    mask_warning_.reset();
+  }
+  parameters_ = parameters;
+  publisher_->setParameters(parameters);
+  queue_->setCapacity(static_cast<std::size_t>(parameters.queue_size));
+  noteTracker();
+  for (const std::string& note : tracker_->notes()) {
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) NODELET_WARN("%s", note.c_str());
+  }
+}
+
+void LineTrackerNodelet::noteTracker() {
+  uses_imu_ = tracker_->usesImu();
+  uses_odometry_ = tracker_->usesOdometry();
+  diagnostics_.setDetector(tracker_->detectorName());
+}
+
+void LineTrackerNodelet::onImage(const ImageMessage& image) {
   diagnostics_.addReceived();
   queue_->push(image);
   imu_.input.wake();
@@ -100,11 +147,11 @@ void LineTrackerNodelet::onCameraInfo(const sensor_msgs::CameraInfoConstPtr& inf
 }
 
 void LineTrackerNodelet::onImu(const sensor_msgs::ImuConstPtr& message) {
-  if (tracker_->usesImu()) imu_.input.add(*message);
+  if (uses_imu_) imu_.input.add(*message);
 }
 
 void LineTrackerNodelet::onOdometry(const nav_msgs::OdometryConstPtr& message) {
-  if (tracker_->usesOdometry()) odometry_.input.add(*message);
+  if (uses_odometry_) odometry_.input.add(*message);
 }
 
 bool LineTrackerNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
@@ -122,20 +169,21 @@ void LineTrackerNodelet::onTimer(const ros::WallTimerEvent&) {
   const double silence = diagnostics_.secondsWithoutImage();
   if (const auto topics = silence_warning_->update(silence >= StreamDiagnostics::kSilence)) {
     NODELET_WARN("no image for %.0f s on %s (publishers: %u); topics with images: %s", silence,
-                 image_topic_.c_str(), image_subscriber_.getNumPublishers(), topics->c_str());
+                 image_topic_.c_str(), image_subscription_->publishers(), topics->c_str());
   }
 }
 
 void LineTrackerNodelet::reportDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& status) {
   StreamDiagnostics::Setup setup;
   setup.image_topic = image_topic_;
-  setup.detector = tracker_->detectorName();
   setup.calibration = calibration_.state();
   setup.calibrated = calibrated_;
-  setup.imu = stateOf(imu_, tracker_->usesImu());
-  setup.odometry = stateOf(odometry_, tracker_->usesOdometry());
+  setup.imu = stateOf(imu_, uses_imu_);
+  setup.odometry = stateOf(odometry_, uses_odometry_);
   setup.imu_in_step = !imu_.input.outOfStep();
   setup.odometry_in_step = !odometry_.input.outOfStep();
+  if (uses_imu_) setup.imu_lag_s = imu_.input.lag();
+  if (uses_odometry_) setup.odometry_lag_s = odometry_.input.lag();
   diagnostics_.report(setup, status);
 }
 
@@ -150,9 +198,11 @@ std::string LineTrackerNodelet::stateOf(const MotionSensor<Sample>& sensor, bool
 }
 
 void LineTrackerNodelet::work() {
-  while (const auto image = queue_->pop()) {
+  while (const auto message = queue_->pop()) {
     try {
-      track(**image);
+      // Several nodelets share a process, and its stderr.
+      track(message->raw ? *message->raw
+                         : *decompress(*message->compressed, DecoderWarnings::kArePrinted).toImageMsg());
     } catch (const std::exception& error) {
       drop(DropReason::kUnreadable, error.what());
     }
@@ -161,22 +211,33 @@ void LineTrackerNodelet::work() {
 
 void LineTrackerNodelet::track(const sensor_msgs::Image& image) {
   const std::uint64_t replaced = queue_->replaced();
-  const auto [gray, problem] = readGray(image, parameters_.mono16_scale);
-  if (!problem.empty()) return drop(DropReason::kUnreadable, problem);
   const auto stamp_ns = static_cast<std::int64_t>(image.header.stamp.toNSec());
+  double mono16_scale = 0.0;
+  double patience_s = 0.0;
+  std::int64_t imu_stamp_ns = 0;
+  {
+    const std::lock_guard<std::mutex> lock(tracker_mutex_);
+    mono16_scale = parameters_.mono16_scale;
+    patience_s = parameters_.imu_wait;
+    imu_stamp_ns = tracker_->imuStamp(stamp_ns);
+  }
+  const auto [gray, problem] = readGray(image, mono16_scale);
+  if (!problem.empty()) return drop(DropReason::kUnreadable, problem);
   const CalibrationInput::Model model = calibration_.modelFor(gray.cols, gray.rows);
   if (model.warning) {
     NODELET_WARN("%s: %s", camera_info_topic_.c_str(), model.warning->c_str());
   }
   calibrated_ = model.camera != nullptr;
-  checkMask(gray.cols, gray.rows);
   const std::string& frame_id = image.header.frame_id;
-  if (stamp_ns != 0) {
-    if (tracker_->usesImu()) await(imu_, imu_subscriber_, tracker_->imuStamp(stamp_ns), frame_id);
-    if (tracker_->usesOdometry()) await(odometry_, odometry_subscriber_, stamp_ns, frame_id);
+  if (stamp_ns != 0 && (uses_imu_ || uses_odometry_)) {
+    const ros::WallTime begin = ros::WallTime::now();
+    if (uses_imu_) await(imu_, imu_subscriber_, imu_stamp_ns, patience_s, frame_id);
+    if (uses_odometry_) await(odometry_, odometry_subscriber_, stamp_ns, patience_s, frame_id);
+    diagnostics_.addWait((ros::WallTime::now() - begin).toSec());
   }
 
   const std::lock_guard<std::mutex> lock(tracker_mutex_);
+  checkMask(gray.cols, gray.rows);
   tracker_->setCamera(model.camera);
   if (const auto pose = imu_.extrinsic.pose()) {
     tracker_->setImuRotation(pose->linear());
@@ -196,26 +257,28 @@ void LineTrackerNodelet::track(const sensor_msgs::Image& image) {
     NODELET_INFO("epoch %u begins at stamp %.6f", frame.epoch, image.header.stamp.toSec());
   }
   epoch_ = frame.epoch;
-  diagnostics_.addTracked(frame, frame.statistics.total_ms);
+  diagnostics_.addTracked(frame);
+  diagnostics_.setGyroBias(tracker_->gyroBias());
   publisher_->setCamera(model.camera);
-  if (publisher_->publish(frame, frame_id, gray, replaced)) diagnostics_.addPublished();
+  if (publisher_->publish(frame, frame_id, gray, replaced)) {
+    diagnostics_.addPublished((ros::Time::now() - image.header.stamp).toSec());
+  }
 }
 
 /// Without tracker_mutex_, so that a reset need not wait with the image. An image that would cost another one
 /// its place in the queue does not wait.
 template <class Sample>
 void LineTrackerNodelet::await(MotionSensor<Sample>& sensor, const ros::Subscriber& subscriber,
-                               std::int64_t stamp_ns, const std::string& camera_frame) {
+                               std::int64_t stamp_ns, double patience_s, const std::string& camera_frame) {
   if (!sensor.input.frame() && subscriber.getNumPublishers() == 0) return;
   const auto crowded = [this] { return queue_->isFull(); };
-  if (sensor.extrinsic.isHopeful() && !sensor.input.waitFor(stamp_ns, parameters_.imu_wait, crowded)) {
+  if (sensor.extrinsic.isHopeful() && !sensor.input.waitFor(stamp_ns, patience_s, crowded)) {
     if (sensor.extrinsic.pose()) diagnostics_.addWithoutSamples();
   }
   warnOfLag(sensor);
   const std::optional<std::string> frame = sensor.input.frame();
   if (!frame) return;
-  if (const auto warning =
-          sensor.extrinsic.find(tf_buffer_, *frame, camera_frame, parameters_.imu_wait, crowded)) {
+  if (const auto warning = sensor.extrinsic.find(tf_buffer_, *frame, camera_frame, patience_s, crowded)) {
     NODELET_WARN("%s: %s", sensor.topic.c_str(), warning->c_str());
   }
 }

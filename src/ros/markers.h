@@ -18,6 +18,9 @@ class MarkerBuilder {
  public:
   explicit MarkerBuilder(bool ids) : ids_(ids) {}
 
+  /// For the images to come.
+  void setIds(bool ids) { ids_ = ids; }
+
   /// Markers of an image whose frame is `frame_id`. They replace those of the image before; a new epoch
   /// begins with DELETEALL.
   visualization_msgs::MarkerArray build(const LineFrame& frame, const std::string& frame_id);

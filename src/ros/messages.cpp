@@ -98,6 +98,12 @@ TrackingStatistics toTrackingStatistics(const LineFrame& frame, const std::strin
   message.lost_depth = from.lostFor(LossReason::kDepth);
   message.lost_edge_jump = from.lostFor(LossReason::kEdgeJump);
   message.lost_duplicate = from.lostFor(LossReason::kDuplicate);
+  message.lost_ids.reserve(frame.lost.size());
+  message.lost_reasons.reserve(frame.lost.size());
+  for (const LostLine& line : frame.lost) {
+    message.lost_ids.push_back(line.id);
+    message.lost_reasons.push_back(static_cast<std::uint8_t>(line.reason));
+  }
   message.prior = from.prior;
   message.prior_rotation = from.prior_rotation;
   message.imu_time_offset = static_cast<float>(from.imu_time_offset);

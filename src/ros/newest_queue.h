@@ -22,7 +22,7 @@ class NewestQueue {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (closed_) return;
-      if (items_.size() >= capacity_) {
+      while (items_.size() >= capacity_) {
         items_.pop_front();
         ++replaced_;
       }
@@ -39,6 +39,12 @@ class NewestQueue {
     Item item = std::move(items_.front());
     items_.pop_front();
     return item;
+  }
+
+  /// For the items to come, 1 or more; those that wait beyond it give way to the next one.
+  void setCapacity(std::size_t capacity) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    capacity_ = capacity;
   }
 
   /// Ends the waiting in pop() for good; items that still wait are forgotten.
@@ -64,8 +70,8 @@ class NewestQueue {
   }
 
  private:
-  const std::size_t capacity_;
   mutable std::mutex mutex_;  ///< guards everything below
+  std::size_t capacity_;
   std::condition_variable arrived_;
   std::deque<Item> items_;
   std::uint64_t replaced_{0};

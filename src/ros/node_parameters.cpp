@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "image_subscription.h"
 #include "mask_file.h"
 #include "sensor_extrinsic.h"
 
@@ -89,11 +90,16 @@ ParameterTable tableOf(NodeParameters& p) {
   table.add("imu_wait", p.imu_wait, 0.0, 10.0, "s",
             "An image waits at most so long for the message of IMU or odometry after it; then its motion is "
             "predicted from the images");
-  table.add(
-      "imu_rotation", p.imu_rotation, std::vector<std::string>{},
-      "Quaternion `qx qy qz qw` that takes directions in the IMU's frame to the camera's; empty: from tf");
-  table.add("odometry_extrinsic", p.odometry_extrinsic, std::vector<std::string>{},
-            "Pose `x y z qx qy qz qw` of the odometry's child frame in the camera's [m]; empty: from tf");
+  // What has been learned with a calibration does not outlive it.
+  table
+      .add(
+          "imu_rotation", p.imu_rotation, std::vector<std::string>{},
+          "Quaternion `qx qy qz qw` that takes directions in the IMU's frame to the camera's; empty: from tf")
+      .change = ParameterTable::Change::kAtStart;
+  table
+      .add("odometry_extrinsic", p.odometry_extrinsic, std::vector<std::string>{},
+           "Pose `x y z qx qy qz qw` of the odometry's child frame in the camera's [m]; empty: from tf")
+      .change = ParameterTable::Change::kAtStart;
   table.add("mask", p.mask, std::vector<std::string>{},
             "Path of an image of the camera's size, white where lines are tracked; empty: everywhere");
   return table;
@@ -159,11 +165,13 @@ void loadParameters(const ros::NodeHandle& node, LineTrackerParameters& tracker,
 void checkImageTransport(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
   std::string transport = "raw";
   private_node.getParam("image_transport", transport);
-  std::string known;
+  // Read without a plugin.
+  if (transport == ImageSubscription::kCompressed) return;
+  std::string known = ImageSubscription::kCompressed;
   for (const std::string& name : image_transport::ImageTransport(node).getLoadableTransports()) {
     const std::string short_name = name.substr(name.find('/') + 1);
     if (short_name == transport) return;
-    known += (known.empty() ? "" : ", ") + short_name;
+    if (short_name != ImageSubscription::kCompressed) known += ", " + short_name;
   }
   throw std::invalid_argument("parameter image_transport is " + transport +
                               ", needs one that is installed: " + known);

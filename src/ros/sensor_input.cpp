@@ -42,6 +42,7 @@ bool SensorInput<Sample>::waitFor(std::int64_t stamp_ns, double patience_s,
   };
   const auto patience =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(patience_s));
+  if (last_stamp_ns_ != 0) lag_s_ = 1e-9 * static_cast<double>(stamp_ns - last_stamp_ns_);
   const Clock::time_point begin = Clock::now();
   Clock::duration affordable = patience;
   if (!settled() && !silent_ && monitor_.inStep() && !is_crowded()) {
@@ -81,6 +82,12 @@ template <class Sample>
 std::optional<std::string> SensorInput<Sample>::frame() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return frame_;
+}
+
+template <class Sample>
+std::optional<double> SensorInput<Sample>::lag() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return lag_s_;
 }
 
 template <class Sample>

@@ -42,6 +42,9 @@ class SensorInput {
 
   /// Of the messages; nothing before the first.
   std::optional<std::string> frame() const;
+  /// How much older the newest message was than the image when the image was last given to waitFor() [s];
+  /// less than 0: newer. Nothing before the first message with a stamp.
+  std::optional<double> lag() const;
   /// A sentence on the measured lag while the sensor is out of step; nothing while it is in step.
   std::optional<std::string> outOfStep() const;
 
@@ -60,6 +63,7 @@ class SensorInput {
   std::deque<Segment> segments_;  ///< oldest first; each but the last is complete
   SensorSyncMonitor monitor_;
   std::int64_t last_stamp_ns_{0};  ///< of the message that came last
+  std::optional<double> lag_s_;
   std::optional<std::string> frame_;
   bool silent_{false};  ///< since a wait in vain
 };

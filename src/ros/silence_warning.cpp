@@ -29,6 +29,10 @@ std::string imageTopics(const std::string& own) {
   return list.empty() ? "none" : list;
 }
 
+std::string topicOfTransport(const std::string& topic, const std::string& transport) {
+  return transport == "raw" ? topic : topic + "/" + transport;
+}
+
 std::optional<std::string> SilenceWarning::update(bool is_silent, Clock::time_point now) {
   if (!is_silent) {
     due_.reset();

@@ -14,6 +14,9 @@ namespace tet_line_tracker {
 /// once and does not wait for one that is gone.
 std::string imageTopics(const std::string& own);
 
+/// The topic that image_transport subscribes to for the images of `topic`, a resolved name.
+std::string topicOfTransport(const std::string& topic, const std::string& transport);
+
 /// Decides when to warn that no images come, and finds out what could help. The question runs in a thread of
 /// its own, since an answer may take as long as it likes: callbacks, and with them the images, must not wait
 /// for the master. Not thread-safe.

@@ -6,8 +6,9 @@
 #include <OgreQuaternion.h>
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
-#include <rviz/properties/ros_topic_property.h>
 #include <pluginlib/class_list_macros.hpp>
+
+#include "../ros/camera_info.h"
 
 namespace tet_line_tracker {
 namespace {
@@ -15,6 +16,8 @@ namespace {
 using Colouring = LineArrayStyle::Colouring;
 
 constexpr int kMaxTrail = 500;
+enum Picture { kUndistorted, kRaw };
+constexpr char kCameraInfoStatus[] = "Camera Info";
 
 Eigen::Isometry3d toEigen(const Ogre::Vector3& position, const Ogre::Quaternion& orientation) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -28,6 +31,18 @@ Eigen::Isometry3d toEigen(const Ogre::Vector3& position, const Ogre::Quaternion&
 
 LineArrayDisplay::LineArrayDisplay() {
   depth_ = makeFloat("Depth", 1.0F, "Distance of the plane of the lines from the camera [m].", 0.001F);
+  picture_ = new rviz::EnumProperty(
+      "Picture", "Undistorted",
+      "Undistorted: lines are straight, as they are in space. Raw: as the lens bends them, so that they lie "
+      "over the raw picture of a Camera display.",
+      this);
+  picture_->addOption("Undistorted", kUndistorted);
+  picture_->addOption("Raw", kRaw);
+  camera_info_topic_ = new rviz::RosTopicProperty(
+      "Camera Info Topic", "/camera/camera_info",
+      QString::fromStdString(ros::message_traits::datatype<sensor_msgs::CameraInfo>()),
+      "Calibration of the raw picture: the camera_info beside its image topic, as for the Camera display.",
+      this);
   colouring_ =
       new rviz::EnumProperty("Color By", "Age",
                              "Age: from red (just detected) to blue (100 images and more), as in the debug "
@@ -60,12 +75,17 @@ LineArrayDisplay::LineArrayDisplay() {
   redrawWith(trail_images_);
   frustum_ = new rviz::BoolProperty(
       "Frustum", defaults.frustum,
-      "Draw what the camera sees, as far as the plane of the lines: that of the pinhole camera which "
-      "fits the lines best, so roughly for a lens with much distortion.",
+      "Draw what the camera sees, as far as the plane of the lines: the border of the raw picture, or what "
+      "the pinhole camera sees which fits the lines best, so roughly for a lens with much distortion.",
       this);
   redrawWith(frustum_);
   makeCommonProperties(0.004F, 0.03F);
 
+  for (rviz::Property* property :
+       {static_cast<rviz::Property*>(picture_), static_cast<rviz::Property*>(camera_info_topic_)}) {
+    QObject::connect(property, &rviz::Property::changed, this, &LineArrayDisplay::subscribeToCameraInfo);
+  }
+  camera_info_topic_->hide();
   QObject::connect(colouring_, &rviz::Property::changed, this, &LineArrayDisplay::showScaleOfColouring);
   showScaleOfColouring();
 }
@@ -104,10 +124,86 @@ void LineArrayDisplay::processMessage(const LineArray::ConstPtr& message) {
   redraw();
 }
 
+void LineArrayDisplay::subscribe() {
+  LineDisplay::subscribe();
+  subscribeToCameraInfo();
+}
+
+void LineArrayDisplay::unsubscribe() {
+  camera_info_subscriber_.shutdown();
+  LineDisplay::unsubscribe();
+}
+
+bool LineArrayDisplay::isRaw() const {
+  return picture_->getOptionInt() == kRaw;
+}
+
+void LineArrayDisplay::subscribeToCameraInfo() {
+  camera_info_topic_->setHidden(!isRaw());
+  camera_info_subscriber_.shutdown();
+  camera_info_.reset();
+  raw_.reset();
+  deleteStatus(kCameraInfoStatus);
+  if (isRaw() && isEnabled() && !camera_info_topic_->getTopicStd().empty()) {
+    try {
+      camera_info_subscriber_ = update_nh_.subscribe(camera_info_topic_->getTopicStd(), 1,
+                                                     &LineArrayDisplay::processCameraInfo, this);
+    } catch (const ros::Exception& error) {
+      setStatus(StatusProperty::Error, kCameraInfoStatus, QString("Error subscribing: ") + error.what());
+    }
+  }
+  redraw();
+}
+
+void LineArrayDisplay::processCameraInfo(const sensor_msgs::CameraInfo::ConstPtr& info) {
+  if (camera_info_ && sameCalibration(*info, *camera_info_) && info->P == camera_info_->P) return;
+  camera_info_ = info;
+  raw_.reset();
+  redraw();
+}
+
+std::shared_ptr<const RawPicture> LineArrayDisplay::rawPicture() {
+  if (!camera_info_subscriber_) {
+    if (camera_info_topic_->getTopicStd().empty()) {
+      setStatus(StatusProperty::Error, kCameraInfoStatus, "The topic of the calibration is missing");
+    }
+    return nullptr;
+  }
+  if (!camera_info_) {
+    setStatus(StatusProperty::Warn, kCameraInfoStatus,
+              QString("No message has come on [%1]: lines cannot be laid over the raw picture without it")
+                  .arg(camera_info_topic_->getTopic()));
+    return nullptr;
+  }
+  if (trail_.images().empty()) return nullptr;
+  const LineArray& image = *trail_.images().back().message;
+  if (!raw_ || raw_width_ != image.width || raw_height_ != image.height) {
+    raw_ = chooseRawPicture(*camera_info_, image.width, image.height);
+    raw_width_ = image.width;
+    raw_height_ = image.height;
+  }
+  if (raw_->picture) {
+    setStatus(StatusProperty::Ok, kCameraInfoStatus, QString::fromStdString(imageText(*camera_info_)));
+  } else {
+    setStatus(StatusProperty::Error, kCameraInfoStatus, QString::fromStdString(raw_->problem));
+  }
+  return raw_->picture;
+}
+
 ShownLines LineArrayDisplay::show() {
-  ShownLines shown = showLines(trail_.images(), style());
+  LineArrayStyle style_of_now = style();
+  if (isRaw()) {
+    style_of_now.raw = rawPicture();
+    if (!style_of_now.raw) return {};
+  }
+  ShownLines shown = showLines(trail_.images(), style_of_now);
   if (trail_.images().empty()) return shown;
   tellCounts(shown);
+  tellWithoutPlace(shown);
+  return shown;
+}
+
+void LineArrayDisplay::tellWithoutPlace(const ShownLines& shown) {
   if (shown.without_place > 0) {
     const std::size_t all = trail_.images().back().message->lines.size();
     setStatus(
@@ -119,7 +215,6 @@ ShownLines LineArrayDisplay::show() {
   } else {
     deleteStatus("Calibration");
   }
-  return shown;
 }
 
 }  // namespace tet_line_tracker

@@ -41,24 +41,37 @@ LineVisual::~LineVisual() {
 void LineVisual::draw(const std::vector<ShownLine>& lines, float width, float text_height) {
   billboards_->clear();
   std::size_t labels = 0;
-  if (!lines.empty()) {
-    billboards_->setMaxPointsPerLine(2);
-    billboards_->setNumLines(static_cast<std::uint32_t>(lines.size()));
-    billboards_->setLineWidth(width);
-    const auto faintest = std::min_element(
-        lines.begin(), lines.end(),
-        [](const ShownLine& left, const ShownLine& right) { return left.colour.alpha < right.colour.alpha; });
-    // The opacity given here only decides whether the material is blended; each point has its own.
-    billboards_->setColor(1.0F, 1.0F, 1.0F, faintest->colour.alpha);
-  }
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const ShownLine& line = lines[i];
-    if (i > 0) billboards_->newLine();
-    billboards_->addPoint(toOgre(line.start), toOgre(line.colour));
-    billboards_->addPoint(toOgre(line.end), toOgre(line.colour));
+  std::size_t pieces = 0;
+  float faintest = 1.0F;
+  for (const ShownLine& line : lines) {
+    pieces += line.between.size() + 1;
+    faintest = std::min(faintest, line.colour.alpha);
     if (!line.label.empty()) drawLabel(labels++, line, text_height);
   }
   for (std::size_t i = labels; i < labels_.size(); ++i) labels_[i].node->setVisible(false);
+  if (lines.empty()) return;
+
+  // Pieces of two points each: BillboardLine mixes lines up when they have different numbers of points.
+  billboards_->setMaxPointsPerLine(2);
+  billboards_->setNumLines(static_cast<std::uint32_t>(pieces));
+  billboards_->setLineWidth(width);
+  // The opacity given here only decides whether the material is blended; each point has its own.
+  billboards_->setColor(1.0F, 1.0F, 1.0F, faintest);
+  bool is_first = true;
+  const auto addPiece = [&](const Eigen::Vector3f& from, const Eigen::Vector3f& to, const Colour& colour) {
+    if (!is_first) billboards_->newLine();
+    is_first = false;
+    billboards_->addPoint(toOgre(from), toOgre(colour));
+    billboards_->addPoint(toOgre(to), toOgre(colour));
+  };
+  for (const ShownLine& line : lines) {
+    Eigen::Vector3f last = line.start;
+    for (const Eigen::Vector3f& point : line.between) {
+      addPiece(last, point, line.colour);
+      last = point;
+    }
+    addPiece(last, line.end, line.colour);
+  }
 }
 
 void LineVisual::drawLabel(std::size_t number, const ShownLine& line, float height) {
@@ -71,7 +84,9 @@ void LineVisual::drawLabel(std::size_t number, const ShownLine& line, float heig
   label.text->setCaption(line.label);
   label.text->setColor(toOgre(line.colour));
   label.text->setCharacterHeight(height);
-  label.node->setPosition(toOgre(0.5F * (line.start + line.end)));
+  const Eigen::Vector3f middle =
+      line.between.empty() ? 0.5F * (line.start + line.end) : line.between[line.between.size() / 2];
+  label.node->setPosition(toOgre(middle));
   label.node->setVisible(true);
 }
 

@@ -15,7 +15,8 @@ struct ShownLine {
   Eigen::Vector3f start;
   Eigen::Vector3f end;
   Colour colour;
-  std::string label;  ///< beside its middle; empty: none
+  std::string label;                       ///< beside its middle; empty: none
+  std::vector<Eigen::Vector3f> between{};  ///< points between the ends, in their order; none: straight
 };
 
 /// What is drawn of a message, and what is not.

@@ -286,9 +286,16 @@ bool Renderer::onOutline(int x, int y) const {
   return false;
 }
 
-cv::Mat Renderer::render(const std::vector<View>& views) {
+cv::Mat Renderer::render(const std::vector<View>& views, const cv::Range& rows) {
   cv::Mat_<float> radiance(size_, 0.0F);
   const float share = 1.0F / static_cast<float>(views.size());
+  // Whether a pixel is on an outline, its neighbours tell.
+  constexpr int kNeighbours = 2;
+  const auto isWanted = [&](std::size_t number) {
+    const cv::Rect& area = tiles_[number].pixels;
+    return rows == cv::Range::all() ||
+           (area.y < rows.end + kNeighbours && area.y + area.height > rows.start - kNeighbours);
+  };
   for (const View& view : views) {
     const std::vector<SeenRectangle> rectangles = see(view);
     std::vector<const SeenRectangle*> seen;
@@ -304,6 +311,7 @@ cv::Mat Renderer::render(const std::vector<View>& views) {
       }
     };
     parallelTiles([&](std::size_t number) {
+      if (!isWanted(number)) return;
       tile_candidates[number] = candidates(tiles_[number], block_candidates[block_of_[number]]);
       const auto& near = tile_candidates[number];
       forEachPixel(number, [&](int x, int y, const PixelRay& pixel) {
@@ -313,6 +321,7 @@ cv::Mat Renderer::render(const std::vector<View>& views) {
       });
     });
     parallelTiles([&](std::size_t number) {
+      if (!isWanted(number)) return;
       const auto& near = tile_candidates[number];
       const SeenRectangle* last = nullptr;
       forEachPixel(number, [&](int x, int y, const PixelRay& pixel) {

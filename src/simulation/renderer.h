@@ -30,8 +30,8 @@ class Renderer {
   Renderer(std::shared_ptr<const CameraModel> camera, const World& world, int threads);
 
   /// Mean radiance over the views (several: motion blur), CV_32FC1, 8-bit gray levels. Pixels that the model
-  /// maps to no ray are 0.
-  cv::Mat render(const std::vector<View>& views);
+  /// maps to no ray are 0. Pixels outside `rows` need not be rendered.
+  cv::Mat render(const std::vector<View>& views, const cv::Range& rows = cv::Range::all());
 
  private:
   struct PixelRay {

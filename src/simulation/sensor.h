@@ -4,6 +4,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "camera_effects.h"
+
 namespace tet_line_tracker {
 
 /// An 8-bit sensor behind a lens.
@@ -12,7 +14,12 @@ struct Sensor {
   float vignetting{0.35F};          ///< light lost in the image's corners, share
   float electrons_per_gray{30.0F};  ///< at gain 1: sets the shot noise
   float read_noise_gray{0.6F};      ///< deviation at gain 1, 8-bit gray levels
+  CameraEffects effects;
+  std::uint64_t camera_seed{0};  ///< of what is the same in all images
 };
+
+/// A usual sensor, or one with effects.
+Sensor makeSensor(const CameraEffects& effects, std::uint64_t seed);
 
 /// Image that the sensor gives of a radiance image (CV_32FC1, 8-bit gray levels at `brightness` 1).
 /// `brightness` is light that falls on the sensor and makes shot noise; `gain` amplifies signal and noise.

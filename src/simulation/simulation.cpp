@@ -57,6 +57,7 @@ TrajectoryOptions trajectoryOptions(const SimulationOptions& options, const Worl
   trajectory.motion = options.motion;
   trajectory.seconds = options.seconds;
   trajectory.seed = options.seed;
+  trajectory.hand_sway = options.hand_sway;
   trajectory.free_centre = world.free_centre;
   trajectory.free_half_extent = world.free_half_extent;
   if (options.textureless_phase) {
@@ -115,6 +116,7 @@ Simulation::Simulation(const SimulationOptions& options, std::shared_ptr<const C
       world_(makeWorld(worldOptions(options_))),
       trajectory_(trajectoryOptions(options_, world_)),
       renderer_(camera_, world_, options_.threads),
+      sensor_(makeSensor(options_.camera_effects, options_.seed)),
       light_(lightOptions(options_), options_.seed),
       brightness_(light_.meanGray() / meanRadiance()) {
   const auto onOff = [](bool on) { return on ? "yes" : "no"; };
@@ -126,7 +128,10 @@ Simulation::Simulation(const SimulationOptions& options, std::shared_ptr<const C
   geometry.addArgument("rate_hz", text(options_.rate_hz));
   geometry.addArgument("seed", std::to_string(options_.seed));
   geometry.addArgument("moving_object", onOff(options_.moving_object));
+  if (options.hand_sway) geometry.addArgument("hand_sway", "yes");
   geometry.addArgument("textureless_phase", onOff(options_.textureless_phase));
+  const std::string effects = options_.camera_effects.text();
+  if (effects != "none") geometry.addArgument("camera_effects", effects);
 }
 
 int Simulation::imageCount() const {
@@ -203,12 +208,36 @@ std::vector<View> Simulation::exposureViews(double time_s) const {
   return views;
 }
 
+cv::Mat Simulation::radiance(double time_s) {
+  return sensor_.effects.rolling_shutter ? radianceByRows(time_s) : renderer_.render(exposureViews(time_s));
+}
+
+cv::Mat Simulation::radianceByRows(double time_s) {
+  // Some moments of the readout; rows between two of them are a mixture, which moves an edge by parts of a
+  // pixel as the camera does.
+  constexpr int kBands = 16;
+  const int height = camera_->calibration().height;
+  const double rows_per_band = static_cast<double>(height - 1) / kBands;
+  cv::Mat sum = cv::Mat::zeros(height, camera_->calibration().width, CV_32FC1);
+  for (int k = 0; k <= kBands; ++k) {
+    const double moment = time_s + CameraEffects::kReadoutSeconds * (static_cast<double>(k) / kBands - 0.5);
+    const cv::Range rows(std::max(0, static_cast<int>(std::floor((k - 1) * rows_per_band))),
+                         std::min(height, static_cast<int>(std::ceil((k + 1) * rows_per_band)) + 1));
+    const cv::Mat seen = renderer_.render(exposureViews(moment), rows);
+    for (int y = rows.start; y < rows.end; ++y) {
+      const double weight = 1.0 - std::abs(y / rows_per_band - k);
+      if (weight > 0.0) cv::scaleAdd(seen.row(y), weight, sum.row(y), sum.row(y));
+    }
+  }
+  return sum;
+}
+
 cv::Mat Simulation::nextImage() {
   const int number = next_image_++;
   const double time_s = timeOf(imageStamp(number));
   const double gain = light_.nextGain(time_s);
   const std::uint64_t noise_seed = hash64(hash64(options_.seed, 6), static_cast<std::uint64_t>(number));
-  return expose(sensor_, renderer_.render(exposureViews(time_s)), brightness_, gain, noise_seed);
+  return expose(sensor_, radiance(time_s), brightness_, gain, noise_seed);
 }
 
 cv::Mat Simulation::idealImage(std::int64_t stamp_ns) {

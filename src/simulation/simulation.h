@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
+#include "camera_effects.h"
 #include "inertial.h"
 #include "light.h"
 #include "renderer.h"
@@ -26,8 +27,10 @@ struct SimulationOptions {
   double rate_hz{20.0};         ///< images per second, above 0, at most 1 / exposure [Hz]
   std::uint64_t seed{1};
   bool moving_object{false};      ///< a crate swings through the view
+  bool hand_sway{false};          ///< the camera sways with about 1 m/s^2, as in a hand
   bool textureless_phase{false};  ///< a bare wall alone in view for 1.5 s in the middle
-  int threads{1};                 ///< for rendering
+  CameraEffects camera_effects;
+  int threads{1};  ///< for rendering
   std::int64_t first_stamp_ns{1000000000000};
 };
 
@@ -62,6 +65,9 @@ class Simulation {
 
  private:
   double meanRadiance() const;
+  /// What falls on the sensor in an exposure whose middle, for the middle row, is `time_s`.
+  cv::Mat radiance(double time_s);
+  cv::Mat radianceByRows(double time_s);
   std::vector<View> exposureViews(double time_s) const;
 
   SimulationOptions options_;

@@ -9,6 +9,13 @@
 namespace tet_line_tracker {
 namespace {
 
+/// Of a camera in a hand, along each axis: together 0.6 m/s^2 rms.
+struct Sway {
+  double amplitude, frequency_hz;
+};
+constexpr Sway kSwaySlow{0.035, 0.7};
+constexpr Sway kSwayFast{0.006, 1.4};
+
 /// From 0 to 1 with continuous second derivative.
 double smoothStep(double t) {
   t = std::min(1.0, std::max(0.0, t));
@@ -32,7 +39,8 @@ Trajectory::Trajectory(const TrajectoryOptions& options)
     signals_[channel].waves.push_back({amplitude, frequency_hz, random.uniform(0.0, 2.0 * M_PI)});
   };
   const Eigen::Vector3d& centre = options.free_centre;
-  const Eigen::Vector3d& extent = options.free_half_extent;
+  const double room_to_sway = options.hand_sway ? kSwaySlow.amplitude + kSwayFast.amplitude : 0.0;
+  const Eigen::Vector3d extent = (options.free_half_extent.array() - room_to_sway).max(0.0);
   signals_[kX].offset = centre.x();
   signals_[kY].offset = centre.y();
   signals_[kZ].offset = centre.z();
@@ -99,6 +107,11 @@ Trajectory::Trajectory(const TrajectoryOptions& options)
     throw std::invalid_argument(
         "motion \"" + options.motion +
         "\" is not known; known: slow, fast, corridor, shake, rotation, still, drive");
+  }
+  if (options.hand_sway) {
+    for (const Channel axis : {kX, kY, kZ}) {
+      for (const Sway& sway : {kSwaySlow, kSwayFast}) add(axis, sway.amplitude, sway.frequency_hz);
+    }
   }
 }
 

@@ -16,6 +16,7 @@ struct TrajectoryOptions {
   std::string motion{"slow"};  ///< slow, fast, corridor, shake, rotation, still, drive
   double seconds{20.0};        ///< of the sequence [s]
   std::uint64_t seed{1};       ///< phases of the waves, and the street's bends
+  bool hand_sway{false};       ///< and to and fro as in a hand, with accelerations of about 1 m/s^2
 
   Eigen::Vector3d free_centre;       ///< box in which the camera may move, in the world [m]
   Eigen::Vector3d free_half_extent;  ///< [m]

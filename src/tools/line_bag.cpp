@@ -1,5 +1,8 @@
 #include "line_bag.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -13,7 +16,8 @@
 namespace tet_line_tracker {
 namespace {
 
-void takeLosses(const TrackingStatistics& message, FrameStatistics& statistics) {
+void takeLosses(const TrackingStatistics& message, LineFrame& frame) {
+  FrameStatistics& statistics = frame.statistics;
   statistics.lostFor(LossReason::kFlow) = message.lost_flow;
   statistics.lostFor(LossReason::kResidual) = message.lost_residual;
   statistics.lostFor(LossReason::kLengthRatio) = message.lost_length_ratio;
@@ -26,6 +30,12 @@ void takeLosses(const TrackingStatistics& message, FrameStatistics& statistics) 
   statistics.lostFor(LossReason::kDepth) = message.lost_depth;
   statistics.lostFor(LossReason::kEdgeJump) = message.lost_edge_jump;
   statistics.lostFor(LossReason::kDuplicate) = message.lost_duplicate;
+  const std::size_t count = std::min(message.lost_ids.size(), message.lost_reasons.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint8_t reason = message.lost_reasons[i];
+    if (reason >= statistics.lost.size()) continue;
+    frame.lost.push_back({message.lost_ids[i], static_cast<LossReason>(reason)});
+  }
 }
 
 void takeTimes(const TrackingStatistics& message, LineFrame& frame) {
@@ -67,7 +77,7 @@ LineBag readLines(const rosbag::Bag& bag, const std::string& topic) {
     const auto frame = frame_of_stamp.find(static_cast<std::int64_t>(message->header.stamp.toNSec()));
     if (frame == frame_of_stamp.end()) continue;
     takeTimes(*message, lines.frames[frame->second]);
-    takeLosses(*message, lines.frames[frame->second].statistics);
+    takeLosses(*message, lines.frames[frame->second]);
     ++with_times;
   }
   lines.has_statistics = with_times == lines.frames.size();

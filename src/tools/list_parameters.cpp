@@ -73,9 +73,9 @@ int run(int argc, char** argv) {
   const ParameterTable table = tables.of(node);
   if (!path.empty()) {
     checkOutput(path, {});
-    writeOutput(path, withParameters(contentOf(path), node, markdownOf(table)));
+    writeOutput(path, withParameters(contentOf(path), node, markdownOf(table, node)));
   } else if (markdown) {
-    std::cout << markdownOf(table);
+    std::cout << markdownOf(table, node);
   } else if (yaml) {
     std::cout << yamlOf(table);
   } else {

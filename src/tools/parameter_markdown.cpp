@@ -28,16 +28,25 @@ std::string rangeOf(const ParameterTable::Entry& entry) {
   return shortNumber(entry.min) + " to " + shortNumber(entry.max) + (entry.odd ? ", odd" : "");
 }
 
+const char* textOf(ParameterTable::Change change) {
+  if (change == ParameterTable::Change::kNewEpoch) return "new epoch";
+  return change == ParameterTable::Change::kAtStart ? "no" : "yes";
+}
+
 }  // namespace
 
 const char* const kTrackerNode = "line_tracker";
 
-std::string markdownOf(const ParameterTable& table) {
-  std::string text = "| name | default | range | unit | meaning |\n|---|---|---|---|---|\n";
+std::string markdownOf(const ParameterTable& table, const std::string& node) {
+  // The other nodes read their parameters once.
+  const bool live = node == kTrackerNode;
+  std::string text = live ? "| name | default | range | unit | live | meaning |\n|---|---|---|---|---|---|\n"
+                          : "| name | default | range | unit | meaning |\n|---|---|---|---|---|\n";
   for (const ParameterTable::Entry& entry : table.entries()) {
     const std::string value = ParameterTable::valueText(entry);
     text += "| `" + entry.name + "` | " + (value.empty() ? "(empty)" : "`" + value + "`") + " | " +
-            rangeOf(entry) + " | " + entry.unit + " | " + entry.meaning + " |\n";
+            rangeOf(entry) + " | " + entry.unit + " | " +
+            (live ? textOf(entry.change) + std::string(" | ") : "") + entry.meaning + " |\n";
   }
   return text;
 }

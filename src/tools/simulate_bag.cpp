@@ -103,6 +103,9 @@ int simulate(const Arguments& arguments) {
 int run(int argc, char** argv) {
   Arguments arguments;
   SimulationOptions& simulation = arguments.simulation;
+  std::string effects = "none";
+  std::string names;
+  for (const std::string& name : cameraEffectNames()) names += (names.empty() ? "" : ", ") + name;
   po::options_description options;
   options.add_options()("out", po::value(&arguments.out)->required(), "bag to write");
   options.add_options()("scene", po::value(&simulation.scene),
@@ -121,8 +124,13 @@ int run(int argc, char** argv) {
                         "of all that is random");
   options.add_options()("moving-object", po::bool_switch(&simulation.moving_object),
                         "a crate swings to and fro in view");
+  options.add_options()(
+      "hand-sway", po::bool_switch(&simulation.hand_sway),
+      "the camera sways as in a hand, with about 1 m/s^2: an estimator needs it for the scale");
   options.add_options()("textureless-phase", po::bool_switch(&simulation.textureless_phase),
                         "the camera looks at a bare wall for 1.5 s in the middle");
+  options.add_options()("camera-effects", po::value(&effects)->default_value(effects)->value_name("LIST"),
+                        ("all or a list of what the camera does to its pictures: " + names).c_str());
   options.add_options()("camera-info", po::value(&arguments.camera_info)->value_name("FILE"),
                         "calibration of the camera (default: EuRoC's cam0, for drive KITTI's)");
   options.add_options()("no-imu", po::bool_switch(&arguments.no_imu), "write no IMU and no extrinsics");
@@ -145,6 +153,7 @@ int run(int argc, char** argv) {
     throw std::invalid_argument("imu-time-offset is " + std::to_string(arguments.imu_time_offset_s) +
                                 ", needs -0.5..0.5");
   }
+  simulation.camera_effects = parseCameraEffects(effects);
   if (values.count("rate") == 0 && simulation.motion == "drive") simulation.rate_hz = 10.0;
   return simulate(arguments);
 }

@@ -12,12 +12,11 @@ namespace tet_line_tracker {
 class TimeTable {
  public:
   void add(const FrameStatistics& statistics);
+  void add(const std::string& stage, double ms);
   /// Mean, median, 99th percentile and maximum of each stage [ms], to the standard output.
   void print();
 
  private:
-  void add(const std::string& stage, double ms);
-
   std::map<std::string, std::vector<double>> times_;
   std::vector<std::string> order_;
 };

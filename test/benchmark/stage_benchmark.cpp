@@ -182,9 +182,9 @@ class KernelBench {
       batch.pixels[lane] = image_.ptr(100 + lane) + 200 + 2 * lane;
       batch.centre[lane] = 4.0F;
     }
-    std::array<float, kernels::kLanes> places{}, slopes{};
+    std::array<float, kernels::kLanes> places{}, slopes{}, widths{};
     for (auto _ : state) {
-      table_.findEdges(batch, places.data(), slopes.data());
+      table_.findEdges(batch, places.data(), slopes.data(), widths.data());
       benchmark::ClobberMemory();
     }
   }

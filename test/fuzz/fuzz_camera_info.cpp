@@ -8,16 +8,7 @@
 #include "tet_line_tracker/camera/camera_model.h"
 
 using tet_line_tracker::Bytes;
-
-namespace {
-
-/// A plausible number three times of four, any bits otherwise.
-double takeNumber(Bytes& bytes, double scale) {
-  if (bytes.take<std::uint8_t>() % 4 == 0) return bytes.take<double>();
-  return scale * bytes.take<std::int16_t>() / 32768.0;
-}
-
-}  // namespace
+using tet_line_tracker::takeNumber;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   constexpr std::array<const char*, 6> kModels = {
@@ -27,8 +18,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   info.width = bytes.take<std::uint16_t>();
   info.height = bytes.take<std::uint16_t>();
   info.distortion_model = kModels.at(bytes.take<std::uint8_t>() % kModels.size());
-  for (std::size_t i = bytes.take<std::uint8_t>() % 10; i > 0; --i) info.D.push_back(takeNumber(bytes, 4.0));
-  for (double& value : info.K) value = takeNumber(bytes, 2000.0);
+  for (std::size_t i = bytes.take<std::uint8_t>() % 10; i > 0; --i)
+    info.D.push_back(takeNumber(bytes, 4.0, 4));
+  for (double& value : info.K) value = takeNumber(bytes, 2000.0, 4);
   if (bytes.take<std::uint8_t>() % 2 == 0) {
     info.roi.x_offset = bytes.take<std::uint16_t>();
     info.roi.width = bytes.take<std::uint32_t>();

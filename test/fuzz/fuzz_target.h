@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 
 #include <unistd.h>
@@ -38,6 +39,17 @@ class Bytes {
   const std::uint8_t* data_;
   std::size_t size_;
 };
+
+/// A plausible number of up to `scale`, and one time of `rarity` a double of any bits.
+inline double takeNumber(Bytes& bytes, double scale, unsigned rarity) {
+  if (bytes.take<std::uint8_t>() % rarity == 0) return bytes.take<double>();
+  return scale * bytes.take<std::int16_t>() / 32768.0;
+}
+
+/// A promise of what is tried; breaking it is a finding.
+inline void need(bool holds, const char* broken) {
+  if (!holds) throw std::logic_error(broken);
+}
 
 /// The input as a file of this process, for readers that take a path. It goes when the process ends.
 class InputFile {

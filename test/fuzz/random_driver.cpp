@@ -24,6 +24,7 @@ namespace {
 using Input = std::vector<std::uint8_t>;
 
 constexpr std::size_t kMaxInputBytes = 1U << 14U;
+constexpr unsigned kTimeoutS = 60;  // for one input; what takes longer does not end
 
 Input current;
 std::string finding;
@@ -47,6 +48,11 @@ class Mutator {
 
   Input next() {
     Input input = seeds_[below(seeds_.size())];
+    // Where nothing is known of the form, bytes of any length.
+    if (input.empty() && below(2) == 0) {
+      input.resize(below(kMaxInputBytes >> below(8)));
+      for (std::uint8_t& byte : input) byte = static_cast<std::uint8_t>(random_());
+    }
     for (std::size_t i = 1 + below(8); i > 0; --i) mutate(input);
     if (input.size() > kMaxInputBytes) input.resize(kMaxInputBytes);
     return input;
@@ -112,6 +118,7 @@ int main(int argc, char** argv) {
   finding = "finding_" + program.filename().string() + ".bin";
   if (__sanitizer_set_death_callback != nullptr) __sanitizer_set_death_callback(saveFinding);
   std::signal(SIGABRT, [](int) { saveFinding(); });
+  std::signal(SIGALRM, [](int) { std::abort(); });
 
   std::vector<Input> seeds(1);
   if (argc > 2) {
@@ -124,6 +131,7 @@ int main(int argc, char** argv) {
   std::size_t inputs = 0;
   for (; std::chrono::steady_clock::now() < end; ++inputs) {
     current = mutator.next();
+    alarm(kTimeoutS);
     try {
       LLVMFuzzerTestOneInput(current.data(), current.size());
     } catch (const std::exception& error) {
@@ -132,6 +140,7 @@ int main(int argc, char** argv) {
       return 1;
     }
   }
+  alarm(0);
   std::printf("%s: %zu inputs, nothing found\n", program.filename().c_str(), inputs);
   return inputs > 0 ? 0 : 1;
 }

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <functional>
 #include <limits>
+#include <vector>
 
 #include "synthetic_scene.h"
 
@@ -30,6 +33,32 @@ TEST(CameraInfo, WithoutASizeFitsEveryImage) {
   sensor_msgs::CameraInfo info = cameraInfo(ros::Time(1));
   info.width = info.height = 0;
   EXPECT_NE(chooseCamera(info, 640, 480).camera, nullptr);
+}
+
+TEST(CameraInfo, IsAnotherCalibrationWhenAnythingOfItIsAnother) {
+  sensor_msgs::CameraInfo info = cameraInfo(ros::Time(1));
+  info.D.assign(5, std::numeric_limits<double>::quiet_NaN());
+  sensor_msgs::CameraInfo later = info;
+  later.header.stamp = ros::Time(2);
+  EXPECT_TRUE(sameCalibration(info, later)) << "NaN is the same as NaN";
+  using Info = sensor_msgs::CameraInfo;
+  const std::vector<std::function<void(Info&)>> changes{[](Info& i) { i.distortion_model = "equidistant"; },
+                                                        [](Info& i) { ++i.width; },
+                                                        [](Info& i) { ++i.height; },
+                                                        [](Info& i) { ++i.binning_x; },
+                                                        [](Info& i) { ++i.binning_y; },
+                                                        [](Info& i) { ++i.roi.x_offset; },
+                                                        [](Info& i) { ++i.roi.y_offset; },
+                                                        [](Info& i) { ++i.roi.width; },
+                                                        [](Info& i) { ++i.roi.height; },
+                                                        [](Info& i) { i.K[4] += 1.0; },
+                                                        [](Info& i) { i.D[1] = 0.0; },
+                                                        [](Info& i) { i.D.pop_back(); }};
+  for (std::size_t k = 0; k < changes.size(); ++k) {
+    sensor_msgs::CameraInfo other = info;
+    changes[k](other);
+    EXPECT_FALSE(sameCalibration(info, other)) << "change " << k;
+  }
 }
 
 TEST(CameraInfo, OfZerosMeansACameraThatIsNotCalibrated) {

@@ -17,20 +17,12 @@
 #include "../tools/tool_run.h"
 #include "synthetic_scene.h"
 #include "tet_line_tracker/LineArray.h"
+#include "wire_bytes.h"
 
 namespace tet_line_tracker {
 namespace {
 
 namespace scene = synthetic_scene;
-
-using Bytes = std::vector<std::uint8_t>;
-
-Bytes bytesOf(const LineArray& message) {
-  Bytes bytes(ros::serialization::serializationLength(message));
-  ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  ros::serialization::serialize(stream, message);
-  return bytes;
-}
 
 /// roslaunch in a process group of its own, stopped with all its nodes at the end of the object's life.
 class Launch {

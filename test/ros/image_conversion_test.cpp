@@ -131,6 +131,20 @@ TEST(ImageConversion, RefusesMessagesWhoseSizesDoNotFitTogether) {
   EXPECT_FALSE(sentenceFor(image).empty());
 }
 
+TEST(ImageConversion, RefusesSidesThatNoCameraHas) {
+  sensor_msgs::Image image;
+  image.encoding = "mono8";
+  image.width = image.step = 32768;
+  image.height = 1;
+  image.data.assign(image.step, 7);
+  EXPECT_EQ(sentenceFor(image), "image of 32768x1 mono8 has a size outside 1..32767 px");
+  image.height = image.width;
+  image.width = image.step = 1;
+  EXPECT_EQ(sentenceFor(image), "image of 1x32768 mono8 has a size outside 1..32767 px");
+  image.height = 32767;
+  EXPECT_EQ(sentenceFor(image), "");
+}
+
 TEST(ReadGray, AnImageThatCannotBeReadIsAProblemAndNoException) {
   sensor_msgs::Image image;
   image.encoding = "mono8";

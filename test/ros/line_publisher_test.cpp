@@ -5,6 +5,7 @@
 #include <sensor_msgs/image_encodings.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "tet_line_tracker/LineArray.h"
@@ -125,6 +126,43 @@ TEST_F(LinePublisherTest, SendsMarkersOfTheNormalisedLines) {
   ASSERT_FALSE(arrays[0].markers.empty());
   ASSERT_EQ(arrays[0].markers.back().points.size(), 2U);
   EXPECT_NEAR(arrays[0].markers.back().points[1].x, 0.3, 1e-6);
+}
+
+TEST_F(LinePublisherTest, IdsOfMarkersComeAndGoWithTheParameter) {
+  std::vector<visualization_msgs::MarkerArray> arrays;
+  const ros::Subscriber in = node_.subscribe<visualization_msgs::MarkerArray>(
+      "markers", 10,
+      [&](const visualization_msgs::MarkerArray::ConstPtr& message) { arrays.push_back(*message); });
+  ASSERT_TRUE(waitFor([&] { return in.getNumPublishers() == 1; }));
+  const auto texts = [&](int i) {
+    const std::size_t before = arrays.size();
+    publish(frameOf(i));
+    EXPECT_TRUE(waitFor([&] { return arrays.size() == before + 1; }));
+    return std::count_if(arrays.back().markers.begin(), arrays.back().markers.end(), [](const auto& marker) {
+      return marker.ns == "ids" && marker.action == visualization_msgs::Marker::ADD;
+    });
+  };
+  NodeParameters parameters;
+  parameters.marker_ids = false;
+  publisher_.setParameters(parameters);
+  EXPECT_EQ(texts(0), 0);
+  parameters.marker_ids = true;
+  publisher_.setParameters(parameters);
+  EXPECT_EQ(texts(1), 1);
+}
+
+TEST(LinePublisher, AnotherRateHoldsFromTheNextImageOn) {
+  ros::NodeHandle node("paced");
+  NodeParameters parameters;
+  LinePublisher publisher(node, parameters);
+  const cv::Mat gray(24, 32, CV_8UC1, cv::Scalar(90));
+  std::vector<bool> published;
+  for (int i = 0; i < 9; ++i) {
+    if (i == 2) parameters.publish_rate = 5.0;
+    publisher.setParameters(parameters);
+    published.push_back(publisher.publish(frameOf(i), "cam", gray, 0));
+  }
+  EXPECT_EQ(published, (std::vector<bool>{true, true, true, false, false, false, true, false, false}));
 }
 
 TEST(LinePublisher, LeavesOutImagesAbovePublishRateAndNeverTheFirstOfAnEpoch) {

@@ -58,6 +58,7 @@ TEST(Messages, GiveEachReasonOfALossItsField) {
   for (std::size_t i = 0; i < frame.statistics.lost.size(); ++i) {
     frame.statistics.lost[i] = static_cast<std::uint32_t>(100 + i);
   }
+  frame.lost = {{1ULL << 40, LossReason::kFlow}, {1ULL << 41, LossReason::kDuplicate}};
   frame.statistics.dropped_late = 7;
   frame.statistics.lines_cut = 11;
   frame.statistics.lines_left_out = 12;
@@ -70,6 +71,8 @@ TEST(Messages, GiveEachReasonOfALossItsField) {
       message.lost_mask,    message.lost_depth,    message.lost_edge_jump,    message.lost_duplicate};
   ASSERT_EQ(lost.size(), frame.statistics.lost.size());
   for (std::size_t i = 0; i < lost.size(); ++i) EXPECT_EQ(lost[i], 100 + i);
+  EXPECT_EQ(message.lost_ids, (std::vector<std::uint64_t>{1ULL << 40, 1ULL << 41}));
+  EXPECT_EQ(message.lost_reasons, (std::vector<std::uint8_t>{0, static_cast<std::uint8_t>(lost.size() - 1)}));
   EXPECT_EQ(message.dropped_late, 7U);
   EXPECT_EQ(message.lines_cut, 11U);
   EXPECT_EQ(message.lines_left_out, 12U);

@@ -25,6 +25,17 @@ TEST(NewestQueue, ReplacesTheOldestAndCounts) {
   EXPECT_EQ(queue.pop(), 4);
 }
 
+TEST(NewestQueue, HoldsNoMoreThanItsNewCapacity) {
+  NewestQueue<int> queue(4);
+  for (int i = 0; i < 4; ++i) queue.push(i);
+  queue.setCapacity(2);
+  EXPECT_TRUE(queue.isFull());
+  queue.push(4);
+  EXPECT_EQ(queue.replaced(), 3U);
+  EXPECT_EQ(queue.pop(), 3);
+  EXPECT_EQ(queue.pop(), 4);
+}
+
 TEST(NewestQueue, EndsTheWaitingWhenItIsClosed) {
   NewestQueue<int> queue(2);
   std::optional<int> taken{1};

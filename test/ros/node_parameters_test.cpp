@@ -55,7 +55,7 @@ TEST(Parameters, OfAWrongTypeStopTheNode) {
 }
 
 TEST(Parameters, ThatNameNoTransportStopTheNode) {
-  expectRefusal("_image_transport:=pigeon", {"parameter image_transport is pigeon", "raw"});
+  expectRefusal("_image_transport:=pigeon", {"parameter image_transport is pigeon", "compressed", "raw"});
 }
 
 TEST(Parameters, AreReadWithTheirTypes) {

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Log.h>
+#include <sensor_msgs/CompressedImage.h>
 
 #include "synthetic_scene.h"
 #include "tet_line_tracker/LineArray.h"
@@ -52,8 +53,13 @@ class ManagerLog {
 /// One nodelet /NAME, its image topic /NAME/image and everything it says.
 class Stream {
  public:
-  explicit Stream(const std::string& name) : name_(name) {
-    image_publisher_ = node_.advertise<sensor_msgs::Image>("/" + name + "/image", 300);
+  enum class Images { kRaw, kCompressed };
+
+  explicit Stream(const std::string& name, Images images = Images::kRaw) : name_(name) {
+    const std::string topic = "/" + name + "/image";
+    image_publisher_ = images == Images::kRaw
+                           ? node_.advertise<sensor_msgs::Image>(topic, 300)
+                           : node_.advertise<sensor_msgs::CompressedImage>(topic + "/compressed", 300);
     info_publisher_ = node_.advertise<sensor_msgs::CameraInfo>("/" + name + "/camera_info", 10);
     lines_subscriber_ = node_.subscribe<LineArray>(
         "/" + name + "/lines", 300, [this](const LineArray::ConstPtr& m) { lines.push_back(*m); });
@@ -72,6 +78,7 @@ class Stream {
     });
   }
   void send(const sensor_msgs::Image& image) { image_publisher_.publish(image); }
+  void send(const sensor_msgs::CompressedImage& image) { image_publisher_.publish(image); }
   void send(const sensor_msgs::CameraInfo& info) { info_publisher_.publish(info); }
   /// Pictures `first` to before `last` at their time of a 20 Hz camera.
   void sendPictures(int first, int last) {

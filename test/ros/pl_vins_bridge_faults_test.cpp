@@ -7,6 +7,7 @@
 
 #include "managed_nodelet.h"
 #include "node_stream.h"
+#include "wire_bytes.h"
 
 namespace tet_line_tracker {
 namespace {
@@ -15,16 +16,14 @@ class BridgeFaults : public ::testing::Test {
  protected:
   /// A player: it publishes bytes, in which the numbers of the recording stay.
   ros::Publisher player(const sensor_msgs::PointCloud& first) {
-    const topic_tools::ShapeShifter shifter = bytesOf(first);
+    const topic_tools::ShapeShifter shifter = withoutType(first);
     ros::Publisher publisher = shifter.advertise(node_, "/feature_tracker/feature", 100);
     EXPECT_TRUE(waitFor([&] { return publisher.getNumSubscribers() == 1; }));
     return publisher;
   }
-  static topic_tools::ShapeShifter bytesOf(const sensor_msgs::PointCloud& message) {
+  static topic_tools::ShapeShifter withoutType(const sensor_msgs::PointCloud& message) {
     topic_tools::ShapeShifter shifter;
-    std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
-    ros::serialization::OStream out(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-    ros::serialization::serialize(out, message);
+    Bytes bytes = bytesOf(message);
     ros::serialization::IStream in(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
     shifter.morph(ros::message_traits::md5sum(message), ros::message_traits::datatype(message),
                   ros::message_traits::definition(message), "");
@@ -59,7 +58,7 @@ TEST_F(BridgeFaults, PointsOfARecordingPlayedFromItsMiddleAreNoWarning) {
   for (const std::uint32_t from : {5000U, 9000U}) {
     ros::Publisher publisher = player(points(from));
     const std::size_t before = answers;
-    for (std::uint32_t i = 0; i < 10; ++i) publisher.publish(bytesOf(points(from + i)));
+    for (std::uint32_t i = 0; i < 10; ++i) publisher.publish(withoutType(points(from + i)));
     ASSERT_TRUE(waitFor([&] { return answers == before + 10; })) << answers;
     publisher.shutdown();
     waitFor([] { return false; }, 2.5);
@@ -70,7 +69,7 @@ TEST_F(BridgeFaults, PointsOfARecordingPlayedFromItsMiddleAreNoWarning) {
 
   // A gap within one recording is told.
   ros::Publisher publisher = player(points(100));
-  for (const std::uint32_t number : {100U, 101U, 109U}) publisher.publish(bytesOf(points(number)));
+  for (const std::uint32_t number : {100U, 101U, 109U}) publisher.publish(withoutType(points(number)));
   EXPECT_TRUE(log_.holds({"7 point messages were published that did not arrive here"}));
   EXPECT_TRUE(waitFor([&] { return diagnostics["point messages missed"] == "7"; }));
 }

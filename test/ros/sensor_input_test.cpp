@@ -41,6 +41,20 @@ TEST(ImuInput, StaysCoveredByWhatTheTrackerAlreadyHas) {
   EXPECT_FALSE(imu.waitFor(ns(10.03), 0.0));
 }
 
+TEST(ImuInput, TellsHowFarTheNewestMessageWasBehindTheImage) {
+  ImuInput imu;
+  imu.waitFor(ns(9.9), 0.0);
+  EXPECT_FALSE(imu.lag().has_value());
+  imu.add(messageAt(9.99));
+  imu.waitFor(ns(10.0), 0.0);
+  ASSERT_TRUE(imu.lag().has_value());
+  EXPECT_NEAR(*imu.lag(), 0.01, 1e-9);
+  imu.add(messageAt(10.07));
+  EXPECT_NEAR(*imu.lag(), 0.01, 1e-9) << "until the next image";
+  imu.waitFor(ns(10.05), 0.0);
+  EXPECT_NEAR(*imu.lag(), -0.02, 1e-9);
+}
+
 TEST(ImuInput, WaitsForAMessageThatIsOnItsWay) {
   ImuInput imu;
   std::thread later([&imu] {

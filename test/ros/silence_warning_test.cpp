@@ -37,6 +37,11 @@ TEST(SilenceWarning, ANewSilenceIsWarnedOfAtOnce) {
   EXPECT_EQ(answerOf(warning, kStart + seconds(10)), "none");
 }
 
+TEST(TopicOfTransport, IsTheOneThatARecordingMustHold) {
+  EXPECT_EQ(topicOfTransport("/camera/image_raw", "raw"), "/camera/image_raw");
+  EXPECT_EQ(topicOfTransport("/camera/image_raw", "compressed"), "/camera/image_raw/compressed");
+}
+
 TEST(SilenceWarning, NeverWaitsForTheAnswerAndAsksNoSecondTimeMeanwhile) {
   std::promise<void> master_is_back;
   std::atomic<int> questions{0};

@@ -9,6 +9,8 @@ import unittest
 
 import cases
 import compare_speed
+import measures_table
+import methods_table
 import prior_table
 
 
@@ -20,7 +22,9 @@ def shell(command, folder=cases.ROOT):
 
 
 def measuring_scripts():
-    return sorted(os.path.relpath(path, cases.ROOT) for path in glob.glob(cases.ROOT + '/scripts/measure_*.sh'))
+    """Those of simulated flights."""
+    paths = glob.glob(cases.ROOT + '/scripts/measure_*.sh')
+    return sorted(os.path.relpath(path, cases.ROOT) for path in paths if not path.endswith('/measure_real.sh'))
 
 
 class Seeds(unittest.TestCase):
@@ -126,6 +130,32 @@ total            0.500     0.400    41.640   205.255
 """
 
 
+class MeasuresTable(unittest.TestCase):
+    COLUMN = measures_table.Column('under 2 px [%]', 'inlier_ratio_2px', '{:.1f}', 100.0)
+
+    def test_a_cell_is_the_mean_over_the_rows_that_have_the_measure(self):
+        rows = [{'inlier_ratio_2px': value} for value in ('0.5', '', '1.0')]
+        self.assertEqual(measures_table.cells(rows, [self.COLUMN]), ['75.0'])
+
+    def test_what_no_row_has_is_a_dash(self):
+        self.assertEqual(measures_table.cells([{'inlier_ratio_2px': ''}], [self.COLUMN]), ['-'])
+
+
+class MethodsTable(unittest.TestCase):
+    MEASURES = {'lines_per_image': '120', 'inlier_ratio_2px': '0.99', 'inlier_ratio_1px': '0.98', 'track_length': '7.5',
+                'line_length_px': '66', 'absolute_all_worse_end_median_px': '0.1', 'absolute_all_worse_end_p90_px': '0.4',
+                'three_view_ratio_2px': '0.9', 'three_view_ratio_1px': '0.8'}
+    RECORDED = dict(MEASURES, inlier_ratio_2px='', inlier_ratio_1px='', absolute_all_worse_end_median_px='',
+                    absolute_all_worse_end_p90_px='')
+
+    def test_a_row_ends_with_the_processor_time_that_track_bag_printed(self):
+        self.assertEqual(methods_table.row_of(self.MEASURES, PRINTED + 'processor        1.234     1.000     2.000     3.000\n'),
+                         ['120', '99.00', '98.00', '7.5', '66', '0.10', '0.40', '1.23'])
+
+    def test_where_no_scene_is_known_three_views_judge_and_nothing_absolute_is_said(self):
+        self.assertEqual(methods_table.row_of(self.RECORDED, PRINTED), ['120', '90.00', '80.00', '7.5', '66', '-', '-', '-'])
+
+
 class CompareSpeed(unittest.TestCase):
     def test_reads_what_track_bag_prints(self):
         run = compare_speed.parse(PRINTED, 1.5)
@@ -180,4 +210,4 @@ class MeasureAll(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    cases.run(Seeds, Flights, PriorTable, CompareSpeed, MeasureAll)
+    cases.run(Seeds, Flights, PriorTable, MeasuresTable, MethodsTable, CompareSpeed, MeasureAll)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Tests of scripts/mutate.py and its table.   mutate_test.py [RESULT.xml]"""
+import glob
 import os
 import tempfile
 import unittest
@@ -12,8 +13,14 @@ class Mutations(unittest.TestCase):
     def setUp(self):
         os.chdir(cases.ROOT)
 
-    def test_every_mutation_still_finds_its_line_in_the_core(self):
+    def test_every_mutation_still_finds_its_line(self):
         self.assertGreater(len(mutate.mutations()), 40)
+
+    def test_a_mutation_outside_of_the_core_names_tests_that_are_there(self):
+        named = [test for mutation in mutate.mutations() for test in mutation.tests]
+        self.assertGreater(len(named), 20)
+        for test in set(named):
+            self.assertTrue(glob.glob('test/*/{}.cpp'.format(test)), test)
 
     def test_a_mutation_whose_line_has_moved_is_an_error(self):
         original = mutate.read

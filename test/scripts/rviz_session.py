@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """rviz on a virtual screen, for tests and pictures.
 
-    rviz_session.py CONFIG PICTURE.png [--size WxH] [--seconds S] [--fixed-frame FRAME] [-- COMMAND ...]
+    rviz_session.py CONFIG PICTURE.png [--size WxH] [--seconds S] [--fixed-frame FRAME]
+                    [--remap FROM:=TO ...] [-- COMMAND ...]
 
 Starts a master, COMMAND (a program that publishes), and rviz with CONFIG, waits S seconds (default 20), and writes what is
 on the screen. Needs Xvfb.
@@ -46,6 +47,13 @@ class Picture:
         near = [{value for value in range(256) if abs(value - wanted) <= tolerance} for wanted in rgb]
         return sum(1 for red, green, blue in zip(self.rgb[0::3], self.rgb[1::3], self.rgb[2::3])
                    if red in near[0] and green in near[1] and blue in near[2])
+
+    def rows_near(self, column, rgb, above, tolerance=20):
+        """Rows above another one in which the screen has about this colour in a column."""
+        step = 3 * self.width
+        pixels = zip(*(self.rgb[3 * column + channel:above * step:step] for channel in range(3)))
+        return [row for row, pixel in enumerate(pixels)
+                if all(abs(value - wanted) <= tolerance for value, wanted in zip(pixel, rgb))]
 
     def write_png(self, path):
         rows = b''.join(b'\0' + bytes(self.rgb[row * 3 * self.width:(row + 1) * 3 * self.width])
@@ -161,12 +169,14 @@ def main():
     parser.add_argument('--size', default='1500x900')
     parser.add_argument('--seconds', type=float, default=20)
     parser.add_argument('--fixed-frame')
+    parser.add_argument('--remap', nargs='+', default=[], metavar='FROM:=TO', help='topics of the configuration')
     arguments = parser.parse_args(words)
     with Session(*map(int, arguments.size.split('x'))) as session:
         if command:
             session.start(*command)
             session.wait(session.subscribers, 'no node of the command has started')  # rviz asks for the kind of time once
-        session.start_rviz(arguments.config, *(['-f', arguments.fixed_frame] if arguments.fixed_frame else []))
+        frame = ['-f', arguments.fixed_frame] if arguments.fixed_frame else []
+        session.start_rviz(arguments.config, *frame, *arguments.remap)
         session.wait(session.subscribed_by_rviz, 'rviz did not start')
         time.sleep(arguments.seconds)
         session.picture().write_png(arguments.picture)

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import xml.etree.ElementTree as ElementTree
 
@@ -30,8 +31,8 @@ def displays(config):
 
 
 def topics(display):
-    """Topics that a display subscribes to."""
-    return [value for name, value in display.items() if re.fullmatch(r'(.* )?Topic', name)]
+    """Topics that a display subscribes to, by the name of the property."""
+    return {name: value for name, value in display.items() if re.fullmatch(r'(.* )?Topic', name)}
 
 
 def classes(description):
@@ -54,6 +55,11 @@ def published():
         # The name of the node in the launch file.
         with open('{}/launch/{}.launch'.format(cases.ROOT, node)) as file:
             assert '"{}"'.format(node) in file.read(), node
+    # What a camera publishes, under the names that the launch file has for it.
+    with open(cases.ROOT + '/launch/line_tracker.launch') as file:
+        names = dict(re.findall(r'<arg name="(image|camera_info)" default="(\S+)"', file.read()))
+    found[names['image']] = 'sensor_msgs/Image'
+    found[names['camera_info']] = 'sensor_msgs/CameraInfo'
     return found
 
 
@@ -67,12 +73,14 @@ class Configurations(unittest.TestCase):
         count = 0
         for config in CONFIGS:
             for display in displays(config):
-                for topic in topics(display):
+                for name, topic in topics(display).items():
                     count += 1
                     if topic in OF_BAGS:
                         continue
                     self.assertIn(topic, types, '{}: {}'.format(config, display['Name']))
-                    if display['Class'] in shown_by:
+                    if name == 'Camera Info Topic':
+                        self.assertEqual(types[topic], 'sensor_msgs/CameraInfo', config)
+                    elif display['Class'] in shown_by:
                         self.assertIn(types[topic], shown_by[display['Class']], '{}: {}'.format(config, display['Name']))
         self.assertGreater(count, 5)
 
@@ -93,10 +101,9 @@ class Configurations(unittest.TestCase):
 
     def test_what_needs_the_plugin_has_markers_beside_it(self):
         for config in CONFIGS:
-            shown = [topic.rsplit('/', 1)[0] for display in displays(config) for topic in topics(display)
+            shown = [display['Topic'].rsplit('/', 1)[0] for display in displays(config)
                      if display['Class'].startswith('tet_line_tracker/')]
-            markers = [topic for display in displays(config) for topic in topics(display)
-                       if display['Class'].startswith('rviz/Marker')]
+            markers = [display['Marker Topic'] for display in displays(config) if display['Class'].startswith('rviz/Marker')]
             for node in shown:
                 self.assertIn(node + '/markers', markers, config)
 
@@ -125,12 +132,13 @@ class Configurations(unittest.TestCase):
 
     def test_the_launch_file_opens_one_that_exists_for_each_view(self):
         launch = cases.ROOT + '/launch/rviz.launch'
-        for view, frame in (('camera', 'cam7'), ('world', 'map')):
+        for view, frame in (('camera', 'cam7'), ('raw', 'cam7'), ('world', 'map')):
             command = subprocess.run(['roslaunch', '--args', '/line_tracker_rviz', launch, 'view:=' + view, 'fixed_frame:=cam7',
-                                      'world_frame:=map', 'tracker:=mine'], stdout=subprocess.PIPE, check=True).stdout.decode()
+                                      'world_frame:=map', 'tracker:=mine', 'image:=/mine/image', 'camera_info:=/mine/info'], stdout=subprocess.PIPE, check=True).stdout.decode()
             self.assertRegex(command, r' -f {} '.format(frame))
             self.assertTrue(os.path.exists(re.search(r'-d (\S.*?\.rviz)', command).group(1)), command)
-            self.assertIn('/line_tracker/lines:=mine/lines', command)
+            for remapping in ('/line_tracker/lines:=mine/lines', '/camera/image_raw:=/mine/image', '/camera/camera_info:=/mine/info'):
+                self.assertIn(remapping, command)
 
 
 def plugin_is_built():
@@ -146,7 +154,7 @@ class Rviz(unittest.TestCase):
         self.addCleanup(session.__exit__)
         session.__enter__()
         session.start_rviz(config, *options)
-        wanted = {topic for display in displays(config) if display['Enabled'] for topic in topics(display)}
+        wanted = {topic for display in displays(config) if display['Enabled'] for topic in topics(display).values()}
         session.wait(lambda: wanted <= session.subscribed_by_rviz(),
                      lambda: 'rviz subscribed to {} of {}, and wrote:\n{}'.format(
                          sorted(session.subscribed_by_rviz()), sorted(wanted), session.messages()), 120)
@@ -158,6 +166,59 @@ class Rviz(unittest.TestCase):
                 continue
             session = self.open(config)
             self.assertNotRegex(session.messages(), r'(?i)failed to load|could not be loaded|\[ERROR\]', config)
+
+    def test_lays_the_lines_over_the_raw_picture(self):
+        if not plugin_is_built():
+            self.skipTest('the displays are not built')
+        session = self.open(self.altered('raw_picture', {'Line Width': 0.004, 'Trail': 0, 'Frustum': False}), '-f', 'cam0')
+        publish = self.publisher(session)
+        count = 0
+
+        def offsets():
+            """Where the line is in the green band, by columns of the screen: from the upper border, 0, to the lower one, 1."""
+            nonlocal count
+            count += 1
+            publish('picture', str(100 + 0.1 * count), str(count))
+            time.sleep(0.5)
+            picture = session.picture()
+            found = []
+            for x in range(picture.width):
+                green, blue = (picture.rows_near(x, rgb, above=500) for rgb in ((0, 200, 0), (64, 153, 255)))
+                if len(green) > 8 and blue:
+                    found.append((sum(blue) / len(blue) - green[0]) / (green[-1] - green[0]))
+            return found
+
+        session.wait(lambda: len(offsets()) > 500, 'no line is drawn over the picture')
+        found = offsets()
+        # Of 13 px: the chord leaves the band, and half a pixel is seen in the mean.
+        self.assertTrue(all(0.35 < each < 0.65 for each in found), found)
+        self.assertAlmostEqual(sum(found) / len(found), 0.5, delta=0.02)
+
+    def altered(self, name, properties):
+        """A copy of a configuration with other values in our displays, which are opaque."""
+        with open('{}/rviz/{}.rviz'.format(cases.ROOT, name)) as file:
+            content = yaml.safe_load(file)
+        for each in content['Visualization Manager']['Displays']:
+            if each['Class'].startswith('tet_line_tracker/'):
+                each.update({'Alpha': 1}, **properties)
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = folder.name + '/altered.rviz'
+        with open(path, 'w') as file:
+            yaml.safe_dump(content, file)
+        return path
+
+    def publisher(self, session):
+        """A function that publishes what rviz_publisher.py is told."""
+        process = subprocess.Popen([sys.executable, '-B', os.path.join(os.path.dirname(__file__), 'rviz_publisher.py')],
+                                   stdin=subprocess.PIPE, env=session.environment, universal_newlines=True)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.stdin.close)
+
+        def publish(*words):
+            process.stdin.write(' '.join(words) + '\n')
+            process.stdin.flush()
+        return publish
 
     def test_draws_the_lines_of_the_newest_image_and_nothing_that_is_stale(self):
         if not plugin_is_built():
@@ -175,14 +236,7 @@ class Rviz(unittest.TestCase):
         with open(folder.name + '/wide.rviz', 'w') as file:
             yaml.safe_dump(content, file)
         session = self.open(folder.name + '/wide.rviz', '-f', 'cam0')
-        publisher = subprocess.Popen([sys.executable, '-B', os.path.join(os.path.dirname(__file__), 'rviz_publisher.py')],
-                                     stdin=subprocess.PIPE, env=session.environment, universal_newlines=True)
-        self.addCleanup(publisher.wait)
-        self.addCleanup(publisher.stdin.close)
-
-        def publish(*words):
-            publisher.stdin.write(' '.join(words) + '\n')
-            publisher.stdin.flush()
+        publish = self.publisher(session)
 
         def seen(rgb):
             return session.picture().count_near(rgb) > 1000

@@ -18,8 +18,9 @@ namespace {
 const char* const kMotions[] = {"slow", "fast", "corridor", "shake", "rotation", "still"};
 
 Simulation makeSimulation(const std::string& motion, double seconds, bool textureless_phase = false,
-                          const std::string& scene = "") {
+                          const std::string& scene = "", bool hand_sway = false) {
   SimulationOptions options;
+  options.hand_sway = hand_sway;
   options.motion = motion;
   options.seconds = seconds;
   options.scene = scene;
@@ -100,6 +101,43 @@ TEST(Trajectory, KeepsAwayFromEverySurface) {
         }
       }
       EXPECT_GT(nearest, 0.3) << motion << " in " << scene;
+    }
+  }
+}
+
+double rmsAcceleration(const Trajectory& trajectory) {
+  const auto position = [&](double t) -> Eigen::Vector3d {
+    return trajectory.worldFromCamera(t).translation();
+  };
+  constexpr double kStep = 1e-3;  // [s]
+  double sum = 0.0;
+  int count = 0;
+  for (double t = 0.0; t < 20.0; t += 0.01, ++count) {
+    sum += ((position(t + kStep) - 2.0 * position(t) + position(t - kStep)) / (kStep * kStep)).squaredNorm();
+  }
+  return std::sqrt(sum / count);
+}
+
+TEST(Trajectory, HandSwayAcceleratesByAboutOneMetrePerSecondSquaredWhereFlightsHardlyDo) {
+  for (const char* motion : {"slow", "corridor"}) {
+    EXPECT_LT(rmsAcceleration(makeSimulation(motion, 20.0).trajectory()), 0.5) << motion;
+    const double swaying = rmsAcceleration(makeSimulation(motion, 20.0, false, "", true).trajectory());
+    EXPECT_GT(swaying, 0.8) << motion;
+    EXPECT_LT(swaying, 1.3) << motion;
+  }
+}
+
+TEST(Trajectory, HandSwayStaysWithinTheWaysOfTheMotion) {
+  for (const char* motion : {"slow", "fast", "corridor"}) {
+    const Simulation simulation = makeSimulation(motion, 20.0, false, "", true);
+    const World& world = simulation.world();
+    const bool walks = std::string(motion) == "corridor";
+    for (double t = 0.0; t <= 20.0; t += 0.05) {
+      const Eigen::Isometry3d pose = simulation.trajectory().worldFromCamera(t);
+      const Eigen::Vector3d away = (pose.translation() - world.free_centre).cwiseAbs();
+      for (int axis = walks ? 1 : 0; axis < 3; ++axis) {
+        ASSERT_LE(away(axis), world.free_half_extent(axis) + 1e-9) << motion << " at " << t;
+      }
     }
   }
 }

@@ -143,6 +143,8 @@ TEST_F(EurocFolder, NamesFileAndLineOfBadNumbers) {
             "#\n1000000000000000000,0.1,0.2,0.3,1,2,9.81\n"
             "1000000000005000000,0.4,o.5,0.6,3,4,9.82\n");
   expectFailure("euroc", "mav0/imu0/data.csv:3: \"o.5\" is not a number");
+  writeText(root() / "mav0/imu0/data.csv", "1000000000000000000,0.1,nan,0.3,1,2,9.81\n");
+  expectFailure("euroc", "mav0/imu0/data.csv:1: \"nan\" is not a number");
   writeText(root() / "mav0/imu0/data.csv", "1000000000000000000,0.1,0.2,0.3,1,2\n");
   expectFailure("euroc", "mav0/imu0/data.csv:1: 6 fields, needs 7");
   writeText(root() / "mav0/imu0/data.csv", "1e18,0.1,0.2,0.3,1,2,3\n");

@@ -19,7 +19,7 @@ void expectTable(const std::string& path, const std::string& node, const Paramet
   std::ostringstream text;
   text << file.rdbuf();
   ASSERT_TRUE(file) << path;
-  EXPECT_EQ(text.str(), withParameters(text.str(), node, markdownOf(table)))
+  EXPECT_EQ(text.str(), withParameters(text.str(), node, markdownOf(table, node)))
       << "update it: rosrun tet_line_tracker list_parameters --node " << node << " --update " << path;
 }
 
@@ -47,19 +47,34 @@ TEST(VioParameters, OfTheMapperAreThoseOfTheCode) {
 TEST(ReadmeParameters, ShowDefaultRangeUnitAndMeaning) {
   bool flag = true;
   int window = 7;
+  int levels = 3;
+  std::string pose;
   double gap = 0.5;
   std::string method = "paper";
   ParameterTable table;
   table.add("flag", flag, "A switch");
   table.add("window", window, 3, 21, "px", "Side of the patch").odd = true;
+  table.add("levels", levels, 1, 8, "", "Images").change = ParameterTable::Change::kNewEpoch;
+  table.add("pose", pose, {}, "Where it is").change = ParameterTable::Change::kAtStart;
   table.add("gap", gap, 0.001, 3600.0, "s", "Longest gap");
   table.add("method", method, {"paper", "joint"}, "Which one");
-  EXPECT_EQ(markdownOf(table),
+  EXPECT_EQ(markdownOf(table, kTrackerNode),
+            "| name | default | range | unit | live | meaning |\n|---|---|---|---|---|---|\n"
+            "| `flag` | `true` | `true`, `false` |  | yes | A switch |\n"
+            "| `window` | `7` | 3 to 21, odd | px | yes | Side of the patch |\n"
+            "| `levels` | `3` | 1 to 8 |  | new epoch | Images |\n"
+            "| `pose` | (empty) | any |  | no | Where it is |\n"
+            "| `gap` | `0.5` | 0.001 to 3600 | s | yes | Longest gap |\n"
+            "| `method` | `paper` | `paper`, `joint` |  | yes | Which one |\n");
+}
+
+TEST(ReadmeParameters, OfNodesThatReadThemOnceAreNotCalledLive) {
+  bool flag = true;
+  ParameterTable table;
+  table.add("flag", flag, "A switch");
+  EXPECT_EQ(markdownOf(table, "line_mapper"),
             "| name | default | range | unit | meaning |\n|---|---|---|---|---|\n"
-            "| `flag` | `true` | `true`, `false` |  | A switch |\n"
-            "| `window` | `7` | 3 to 21, odd | px | Side of the patch |\n"
-            "| `gap` | `0.5` | 0.001 to 3600 | s | Longest gap |\n"
-            "| `method` | `paper` | `paper`, `joint` |  | Which one |\n");
+            "| `flag` | `true` | `true`, `false` |  | A switch |\n");
 }
 
 TEST(ReadmeParameters, ReplaceOnlyWhatIsBetweenTheMarkers) {

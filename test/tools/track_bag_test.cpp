@@ -6,14 +6,19 @@
 #include <opencv2/videoio.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "../ros/wire_bytes.h"
 #include "bag_content.h"
 #include "tet_line_tracker/LineArray.h"
 #include "tet_line_tracker/TrackingStatistics.h"
+#include "tet_line_tracker/tracking/line_frame.h"
 #include "tool_run.h"
 
 namespace tet_line_tracker {
@@ -47,8 +52,9 @@ class TrackBag : public testing::Test {
     return priors;
   }
 
-  void copyWithout(const std::string& topic, const std::string& copy) {
-    rosbag::Bag from(flight(), rosbag::bagmode::Read);
+  static void copyWithout(const std::string& topic, const std::string& copy,
+                          const std::string& bag = flight()) {
+    rosbag::Bag from(bag, rosbag::bagmode::Read);
     rosbag::Bag to(copy, rosbag::bagmode::Write);
     rosbag::View view(from);
     for (const rosbag::MessageInstance& instance : view) {
@@ -67,9 +73,7 @@ std::unique_ptr<TemporaryFolder> TrackBag::flight_folder;
 std::string linesOf(const std::string& path) {
   std::string bytes;
   for (const auto& one : readTopic<LineArray>(path, "/line_tracker/lines")) {
-    std::vector<std::uint8_t> wire(ros::serialization::serializationLength(one.message));
-    ros::serialization::OStream stream(wire.data(), static_cast<std::uint32_t>(wire.size()));
-    ros::serialization::serialize(stream, one.message);
+    const Bytes wire = bytesOf(one.message);
     bytes.append(wire.begin(), wire.end());
   }
   return bytes;
@@ -83,6 +87,61 @@ TEST_F(TrackBag, TakesTheOnlyImuWithItsFramesAndGivesTheSameBytesAgain) {
   track(flight(), {"--imu", "/imu0"});
   EXPECT_GT(lines.size(), 1000U);
   EXPECT_TRUE(linesOf(file("tracks.bag")) == lines);
+}
+
+TEST_F(TrackBag, NamesEachLineThatIsGoneWithItsReason) {
+  track(flight(), {});
+  const auto lines = readTopic<LineArray>(file("tracks.bag"), "/line_tracker/lines");
+  const auto statistics = readTopic<TrackingStatistics>(file("tracks.bag"), "/line_tracker/statistics");
+  ASSERT_EQ(lines.size(), statistics.size());
+  std::size_t gone = 0;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    std::vector<std::uint64_t> ids;
+    for (const Line& line : lines[i - 1].message.lines) {
+      const auto& now = lines[i].message.lines;
+      const auto same = [&line](const Line& other) { return other.id == line.id; };
+      if (std::none_of(now.begin(), now.end(), same)) ids.push_back(line.id);
+    }
+    const TrackingStatistics& message = statistics[i].message;
+    EXPECT_EQ(message.lost_ids, ids);
+    ASSERT_EQ(message.lost_reasons.size(), ids.size());
+    const auto count = [&message](LossReason reason) {
+      return std::count(message.lost_reasons.begin(), message.lost_reasons.end(),
+                        static_cast<std::uint8_t>(reason));
+    };
+    EXPECT_EQ(count(LossReason::kFlow), message.lost_flow);
+    EXPECT_EQ(count(LossReason::kSupport), message.lost_support);
+    EXPECT_EQ(count(LossReason::kBorder), message.lost_border);
+    EXPECT_EQ(count(LossReason::kDuplicate), message.lost_duplicate);
+    gone += ids.size();
+  }
+  EXPECT_GT(gone, 5U);
+}
+
+TEST_F(TrackBag, PaintTracksWritesTheReasonsThatTheStatisticsHold) {
+  track(flight(), {"--with-images"});
+  copyWithout("/line_tracker/statistics", file("no_reasons.bag"), file("tracks.bag"));
+  int written = 0;
+  const auto statistics = readTopic<TrackingStatistics>(file("tracks.bag"), "/line_tracker/statistics");
+  for (std::size_t i = 0; i < statistics.size(); ++i) {
+    if (statistics[i].message.lost_ids.empty()) continue;
+    cv::Mat pictures[2];
+    for (const bool reasons : {false, true}) {
+      const std::string bag = file(reasons ? "tracks.bag" : "no_reasons.bag");
+      const ToolRun run =
+          runTool("paint_tracks", {bag, file("picture.png"), "--no-ids", "--number", std::to_string(i + 1)});
+      ASSERT_EQ(run.status, 0) << run.errors;
+      pictures[reasons ? 1 : 0] = cv::imread(file("picture.png"));
+    }
+    ASSERT_EQ(pictures[0].size(), pictures[1].size());
+    cv::Mat apart;
+    cv::absdiff(pictures[0], pictures[1], apart);
+    // Above the legend.
+    const int differing = cv::countNonZero(apart.rowRange(0, apart.rows - 40).clone().reshape(1));
+    written += differing > 50 ? 1 : 0;
+    if (written > 0) break;
+  }
+  EXPECT_EQ(written, 1);
 }
 
 TEST_F(TrackBag, WithoutTheFramesTheImagesPredictAndAWarningNamesThem) {
@@ -170,6 +229,18 @@ TEST_F(TrackBag, OnATerminalABarGoesWithAllItsWorkAndEndsItsLine) {
   // Eleven images alone would give as many states.
   EXPECT_GT(std::count(run.output.begin(), run.output.end(), '['), 50) << run.output;
   EXPECT_NE(run.output.find("] 100 %\r\n11 images, "), std::string::npos) << run.output;
+}
+
+TEST_F(TrackBag, PrintsTheProcessorTimeOfAnImageBesideTheWallTime) {
+  const ToolRun run = runTool("track_bag", {flight(), file("tracks.bag"), "--tracker", "lk_endpoints"});
+  if (run.errors.find("this build has no tracker") != std::string::npos) GTEST_SKIP() << run.errors;
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const auto mean = [&run](const std::string& stage) {
+    const std::size_t row = run.output.find("\n" + stage + " ");
+    return row == std::string::npos ? std::nan("") : std::stod(run.output.substr(row + stage.size() + 2));
+  };
+  EXPECT_GT(mean("processor"), 0.1) << run.output;
+  EXPECT_LT(mean("processor"), 1.2 * mean("total") + 0.5) << run.output;
 }
 
 TEST_F(TrackBag, PaintsEveryImageWithItsLinesIntoAVideoOfTheRateOfTheStamps) {

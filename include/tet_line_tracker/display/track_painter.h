@@ -26,20 +26,24 @@ std::array<float, 3> colourOfAge(std::uint32_t age);
 const char* nameOf(LossReason reason);
 
 /// Draws the lines of images over these images: coloured by age, with their ids where there is room, the way
-/// their endpoints came, what was lost since the image before, and a legend. Keeps the recent endpoints of
-/// the lines it has painted.
+/// their endpoints came, what was lost since the image before and why, and a legend. Keeps the recent
+/// endpoints of the lines it has painted.
 class TrackPainter {
  public:
   struct Style {
     std::size_t trail_images{12};  ///< endpoints are followed back over so many painted images; 0: no trail
     bool ids{true};    ///< beside the lines, where no line runs and no other id is, oldest tracks first
     bool scale{true};  ///< legend along the lower border: colours of ages, counts, time, reasons of losses
-    bool lost{true};   ///< lines of the image before that are no longer there, dashed where they were
+    /// Lines of the image before that are no longer there, dashed where they were, longest first with the
+    /// reason where there is room.
+    bool lost{true};
   };
 
   TrackPainter() : TrackPainter(Style{}) {}
   explicit TrackPainter(const Style& style) : style_(style) {}
 
+  /// For the paintings to come.
+  void setStyle(const Style& style) { style_ = style; }
   /// Lines are painted as this camera shows them: along the curve into which its lens bends them. nullptr, as
   /// at first: straight.
   void setCamera(std::shared_ptr<const CameraModel> camera);
@@ -55,9 +59,17 @@ class TrackPainter {
     std::uint64_t painted{0};          ///< number of the painting that saw the line last
   };
 
-  /// Gives the lines of the image before that `frame` lacks; none when that was not the last one painted.
-  std::vector<LineSegment> follow(const LineFrame& frame);
-  void drawIds(const LineFrame& frame, const std::vector<LineCurve>& curves, cv::Mat& bgr) const;
+  struct Loss {
+    std::uint64_t id;
+    LineCurve line;     ///< where it was in the image before
+    LossReason reason;  ///< kCount: not known
+  };
+
+  /// Gives the lines of the image before that `frame` lacks, longest first; none when that was not the last
+  /// one painted.
+  std::vector<Loss> follow(const LineFrame& frame);
+  void drawLabels(const LineFrame& frame, const std::vector<LineCurve>& curves,
+                  const std::vector<Loss>& losses, cv::Mat& bgr) const;
   void drawTrail(const Trail& trail, const cv::Scalar& colour, cv::Mat& bgr) const;
 
   Style style_;

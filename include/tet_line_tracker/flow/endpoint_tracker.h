@@ -63,16 +63,25 @@ class EndpointTracker {
  public:
   virtual ~EndpointTracker() = default;
 
-  /// Takes the patches along `line` from the first image.
-  void extractTemplate(const ImagePyramid& first, const LineCurve& line, LineTemplate& patches) const;
+  /// Where the flow begins: kFar on the coarsest level, kNear on the finest, for a line that is within a few
+  /// pixels of where it is expected.
+  enum class Reach { kFar, kNear };
+
+  /// Takes the patches along `line` from the first image: all that track() needs for this reach.
+  void extractTemplate(const ImagePyramid& first, const LineCurve& line, LineTemplate& patches,
+                       Reach reach = Reach::kFar) const;
+  /// Takes from the same image what a template for kFar has more than one for kNear, if that is missing. Its
+  /// level 0 is not read.
+  void extendTemplate(const ImagePyramid& first, LineTemplate& patches) const;
 
   /// Follows the line of `patches` into the second image, from where it is expected there. Throws
-  /// std::invalid_argument when `patches` were extracted with another window size.
-  EndpointFlow track(const LineTemplate& patches, const ImagePyramid& second,
-                     const LineCurve& expected) const;
+  /// std::invalid_argument when `patches` were extracted with another window size, or for kNear when `reach`
+  /// is kFar.
+  EndpointFlow track(const LineTemplate& patches, const ImagePyramid& second, const LineCurve& expected,
+                     Reach reach = Reach::kFar) const;
 
   /// The places on `path` at which the patches fit best on the coarsest level, best first; at most
-  /// best.size(). Returns how many there are.
+  /// best.size(). Returns how many there are. Throws as track() does for kFar.
   static constexpr std::size_t kMaxStarts = 3;
   std::size_t search(const LineTemplate& patches, const ImagePyramid& second, const LinePath& path,
                      std::array<LineSegment, kMaxStarts>& best) const;
@@ -91,6 +100,10 @@ class EndpointTracker {
   const EndpointTrackerParameters& parameters() const { return parameters_; }
 
  private:
+  int finestLevel(const LineTemplate::Content& content) const;
+  void extractLevel(const ImagePyramid& first, int level, LineTemplate::Content& content) const;
+  void checkContent(const LineTemplate::Content& content, Reach reach) const;
+
   /// Moves the chord of `line` [px of the level] from where it is expected to where it is; the bend stays.
   /// Sets the residual on the finest level.
   virtual Status trackOnLevel(const PatchRow& row, const cv::Mat& image, bool finest, LineCurve& line,

@@ -53,6 +53,8 @@ class MotionPrior {
   MotionPrior(MotionPrior&&) noexcept;
   MotionPrior& operator=(MotionPrior&&) noexcept;
 
+  /// For the images to come. What is known of camera, IMU and odometry stays.
+  void setParameters(const MotionPriorParameters& parameters);
   /// Calibration; nullptr: a pinhole with a focal length of the image's width is assumed.
   void setCamera(std::shared_ptr<const CameraModel> camera);
   /// Takes directions in the IMU's frame to the camera's optical frame. Without it angular velocities are not

@@ -13,6 +13,14 @@ namespace tet_line_tracker {
 /// must outlive it.
 class ParameterTable {
  public:
+  /// When another value takes effect while images come.
+  enum class Change {
+    kBetweenImages,  ///< with the next image; the tracks go on
+    kNewEpoch,       ///< the next image starts a new epoch: the tracks cannot go on
+    kAtStart         ///< not before the program starts again
+  };
+  using Value = std::variant<bool, int, double, std::string>;
+
   struct Entry {
     std::string name;
     std::variant<bool*, int*, double*, std::string*> field;
@@ -22,6 +30,7 @@ class ParameterTable {
     std::vector<std::string> choices;  ///< of a text; empty: any
     std::string unit;                  ///< "px", "s", ...; empty: a number, a word or a switch
     std::string meaning;               ///< one sentence without a full stop
+    Change change{Change::kBetweenImages};
   };
 
   Entry& add(std::string name, bool& field, std::string meaning);
@@ -48,6 +57,9 @@ class ParameterTable {
   /// One sentence for each value out of its range, empty when all are fine.
   std::vector<std::string> check() const;
 
+  static Value value(const Entry& entry);
+  /// Sets the field as it is, in range or not. `value` is of the field's type.
+  static void assign(const Entry& entry, const Value& value);
   static std::string valueText(const Entry& entry);  ///< as set() would read it
   static std::string rangeText(const Entry& entry);  ///< "3..21, odd", "true or false", "paper or joint"
 

@@ -98,6 +98,9 @@ ParameterTable tableOf(LineTrackerParameters& parameters);
 std::vector<std::string> check(const LineTrackerParameters& parameters);
 std::vector<std::string> check(const EndpointTrackerParameters& parameters);
 
+/// Whether tracks that were followed with `before` cannot be followed with `after`.
+bool needsNewEpoch(const LineTrackerParameters& before, const LineTrackerParameters& after);
+
 /// `parameters`, if check() finds no broken rule. Throws std::invalid_argument with all of them otherwise.
 template <class Parameters>
 const Parameters& checked(const Parameters& parameters) {

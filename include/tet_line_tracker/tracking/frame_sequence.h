@@ -16,6 +16,9 @@ class FrameSequence {
  public:
   explicit FrameSequence(const StreamParameters& parameters) : gate_(parameters) {}
 
+  /// For the images to come.
+  void setParameters(const StreamParameters& parameters) { gate_.setParameters(parameters); }
+
   /// Verdict for the next image. If it is accepted, frame() becomes its frame: numbered, with empty
   /// statistics and, at the start of an epoch, without lines. Throws std::invalid_argument unless `gray` is
   /// an 8-bit image of one channel.

@@ -61,6 +61,12 @@ enum class LossReason {
   kCount
 };
 
+/// A line of the image before that is no longer there.
+struct LostLine {
+  std::uint64_t id{0};
+  LossReason reason{LossReason::kCount};
+};
+
 /// What happened to the lines of one image, and how long it took. Mirrors TrackingStatistics.msg.
 struct FrameStatistics {
   std::uint32_t tracks_before{0};   ///< lines of the image before
@@ -96,6 +102,7 @@ struct LineFrame {
   int width{0}, height{0};       ///< of the image [px]
   bool detected{false};          ///< the detector ran on this image
   std::vector<TrackedLine> lines;
+  std::vector<LostLine> lost;  ///< oldest id first; baselines do not fill it
   FrameStatistics statistics;
 };
 

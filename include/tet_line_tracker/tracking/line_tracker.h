@@ -51,6 +51,14 @@ class LineTracker : public LineFrontEnd {
   /// what is estimated so far [ns]. Up to it, and one after it, an image needs angular velocities.
   std::int64_t imuStamp(std::int64_t image_stamp_ns) const;
 
+  /// Bias of the gyroscope as learned from the images so far, in the camera's optical frame [rad/s].
+  Eigen::Vector3d gyroBias() const;
+
+  /// Replaces the parameters between two images. The tracks go on, unless needsNewEpoch(): then they are
+  /// dropped, the next image starts a new epoch, and this returns true. Throws as the constructor does; all
+  /// stays as it was then.
+  bool setParameters(const LineTrackerParameters& parameters);
+
   FrameResult process(const cv::Mat& gray, std::int64_t stamp_ns) override;
   std::size_t reset() override;
 

@@ -34,6 +34,9 @@ class StreamGate {
 
   explicit StreamGate(const StreamParameters& parameters);
 
+  /// For the images to come.
+  void setParameters(const StreamParameters& parameters);
+
   /// Verdict for an image with this stamp [ns] and size [px]; remembers it when it is to be used.
   StreamVerdict admit(std::int64_t stamp_ns, int width, int height);
   /// The next image starts a new epoch.
@@ -44,7 +47,7 @@ class StreamGate {
   std::optional<std::int64_t> lastStamp() const { return last_stamp_ns_; }
 
  private:
-  std::int64_t max_gap_ns_;
+  std::int64_t max_gap_ns_{0};
   std::optional<std::int64_t> last_stamp_ns_;
   int width_{0}, height_{0};
   std::int64_t late_stamp_ns_{0};

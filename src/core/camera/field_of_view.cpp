@@ -1,15 +1,14 @@
 #include "camera/field_of_view.h"
 
-#include <cmath>
 #include <utility>
 
 #include "geometry/clamp.h"
+#include "geometry/last_inside.h"
 
 namespace tet_line_tracker {
 namespace {
 
-constexpr float kBorderStep = 4.0F;     ///< between the pixels of the border that are tried [px]
-constexpr float kCutAccuracy = 0.005F;  ///< of a cut end [px]
+constexpr float kBorderStep = 4.0F;  ///< between the pixels of the border that are tried [px]
 
 }  // namespace
 
@@ -46,32 +45,16 @@ std::optional<LineSegment> FieldOfView::clip(const LineCurve& curve, float min_l
     if (i >= steps) return std::nullopt;
     in_view = static_cast<float>(i) / static_cast<float>(steps);
   }
+  const auto sees = [this](const Eigen::Vector2f& pixel) { return contains(pixel); };
   LineSegment cut = segment;
-  if (!start_in_view) cut.start = lastInView(curve, in_view, 0.0F);
-  if (!end_in_view) cut.end = lastInView(curve, in_view, 1.0F);
+  if (!start_in_view) cut.start = lastInside(curve, in_view, 0.0F, sees);
+  if (!end_in_view) cut.end = lastInside(curve, in_view, 1.0F, sees);
   if (cut.length() < min_length) return std::nullopt;
   return cut;
 }
 
 bool FieldOfView::contains(const Eigen::Vector2f& pixel) const {
   return !camera_ || camera_->normalize(pixel.cast<double>()).has_value();
-}
-
-/// Last point of `curve` in view on the way from the fraction `in_view` to the fraction `beyond`.
-Eigen::Vector2f FieldOfView::lastInView(const LineCurve& curve, float in_view, float beyond) const {
-  Eigen::Vector2f last = curve.at(in_view);
-  while (std::abs(beyond - in_view) * curve.chord.length() > kCutAccuracy) {
-    const float middle = 0.5F * (in_view + beyond);
-    if (middle == in_view || middle == beyond) break;  // float knows nothing in between
-    const Eigen::Vector2f point = curve.at(middle);
-    if (contains(point)) {
-      last = point;
-      in_view = middle;
-    } else {
-      beyond = middle;
-    }
-  }
-  return last;
 }
 
 }  // namespace tet_line_tracker

@@ -24,8 +24,6 @@ class FieldOfView {
   bool contains(const Eigen::Vector2f& pixel) const;
 
  private:
-  Eigen::Vector2f lastInView(const LineCurve& curve, float in_view, float beyond) const;
-
   std::shared_ptr<const CameraModel> camera_;  ///< none: all pixels within the bounds are in view
 };
 

@@ -1,5 +1,6 @@
 #include "camera/plane_distortion.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/LU>
@@ -11,6 +12,8 @@ namespace {
 
 /// Rays further out than this (89.4 degrees) are of no use on a plane.
 constexpr double kLargestRadius = 100.0;
+/// Within it the table of ratios is made: 63 degrees from the axis, where there is no distortion.
+constexpr double kTableRadius = 2.0;
 
 /// The radial factor over r^2, and its derivative by r^2.
 ValueAndSlope radialFactor(const PlaneDistortion::Coefficients& c, double r2) {
@@ -37,7 +40,32 @@ PlaneDistortion::PlaneDistortion(const Coefficients& coefficients)
       max_radius_(
           endOfMonotonicRange([&](double r) { return radialSlope(coefficients, r); }, 0.01, kLargestRadius)),
       none_(c_.k1 == 0.0 && c_.k2 == 0.0 && c_.p1 == 0.0 && c_.p2 == 0.0 && c_.k3 == 0.0 && c_.k4 == 0.0 &&
-            c_.k5 == 0.0 && c_.k6 == 0.0) {}
+            c_.k5 == 0.0 && c_.k6 == 0.0) {
+  const double last = std::min(kTableRadius, max_radius_ * radialFactor(c_, max_radius_ * max_radius_).value);
+  squares_per_step_ = last * last / static_cast<double>(kSteps);
+  ratios_[0] = 1.0;
+  for (std::size_t i = 1; i <= kSteps; ++i) {
+    const double radius = std::sqrt(squares_per_step_ * static_cast<double>(i));
+    ratios_[i] = undistortedRadius(radius) / radius;
+  }
+}
+
+double PlaneDistortion::undistortedRadius(double distorted_radius) const {
+  return solveMonotonic(
+      [this](double r) {
+        const ValueAndSlope factor = radialFactor(c_, r * r);
+        return ValueAndSlope{r * factor.value, factor.value + 2.0 * r * r * factor.slope};
+      },
+      distorted_radius, 0.0, max_radius_);
+}
+
+Eigen::Vector2d PlaneDistortion::guess(const Eigen::Vector2d& distorted) const {
+  const double place = distorted.squaredNorm() / squares_per_step_;
+  // Written so that NaN fails.
+  if (!(place < static_cast<double>(kSteps))) return distorted;
+  const auto i = static_cast<std::size_t>(place);
+  return (ratios_[i] + (place - static_cast<double>(i)) * (ratios_[i + 1] - ratios_[i])) * distorted;
+}
 
 std::optional<Eigen::Vector2d> PlaneDistortion::distort(const Eigen::Vector2d& ideal) const {
   if (!(ideal.norm() <= max_radius_)) return std::nullopt;
@@ -49,20 +77,13 @@ std::optional<Eigen::Vector2d> PlaneDistortion::undistort(const Eigen::Vector2d&
     if (!(distorted.norm() <= max_radius_)) return std::nullopt;
     return distorted;
   }
-  // Newton from the distorted point itself nearly always arrives; inside max_radius_ there is one solution
-  // only.
-  if (auto ideal = solve(distorted, distorted, 8)) return ideal;
+  // Newton from nearby nearly always arrives; inside max_radius_ there is one solution only.
+  if (auto ideal = solve(distorted, guess(distorted), 8)) return ideal;
   // The radial part alone has one solution and is solved safely; Newton in the plane then has only the small
   // tangential part left to find, and cannot run to another branch.
   const double distorted_radius = distorted.norm();
   if (!(distorted_radius < kLargestRadius)) return std::nullopt;
-  const double radius = solveMonotonic(
-      [this](double r) {
-        const ValueAndSlope factor = radialFactor(c_, r * r);
-        return ValueAndSlope{r * factor.value, factor.value + 2.0 * r * r * factor.slope};
-      },
-      distorted_radius, 0.0, max_radius_);
-  const double scale = distorted_radius > 0.0 ? radius / distorted_radius : 1.0;
+  const double scale = distorted_radius > 0.0 ? undistortedRadius(distorted_radius) / distorted_radius : 1.0;
   return solve(distorted, scale * distorted, 30);
 }
 

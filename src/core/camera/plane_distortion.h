@@ -27,6 +27,9 @@ class PlaneDistortion {
   std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& distorted) const;
 
  private:
+  double undistortedRadius(double distorted_radius) const;
+  /// An ideal point near that of `distorted`.
+  Eigen::Vector2d guess(const Eigen::Vector2d& distorted) const;
   /// Newton from `start`; nothing when it does not arrive inside max_radius_.
   std::optional<Eigen::Vector2d> solve(const Eigen::Vector2d& distorted, const Eigen::Vector2d& start,
                                        int max_iterations) const;
@@ -35,6 +38,10 @@ class PlaneDistortion {
   Coefficients c_;
   double max_radius_;
   bool none_;  ///< all coefficients are 0
+  /// Ideal over distorted radius of the radial part alone, at equal steps of the squared distorted radius.
+  static constexpr std::size_t kSteps = 128;
+  std::array<double, kSteps + 1> ratios_;
+  double squares_per_step_{0.0};
 };
 
 }  // namespace tet_line_tracker

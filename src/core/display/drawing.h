@@ -15,6 +15,9 @@ namespace tet_line_tracker {
 /// Fractional bits of the drawing functions of OpenCV, so that lines lie where they were measured.
 constexpr int kDrawingShift = 4;
 
+/// Of what was lost; no age has it.
+const cv::Scalar kLossColour(230, 120, 255);
+
 cv::Point fixedPoint(const Eigen::Vector2f& point);
 
 /// Thickness and text grow with the picture: 1 for a WVGA image (752x480).

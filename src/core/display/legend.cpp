@@ -99,8 +99,9 @@ void drawLegend(const LineFrame& frame, cv::Mat& bgr) {
   strip.convertTo(strip, -1, 0.25);
 
   // Text is of the size that suits the whole image.
-  const auto write = [&](const std::string& text, int x, int y, double size) {
-    drawText(text, {x, area.y + cvRound(y * scale)}, size, kTextColour, bgr);
+  const auto write = [&](const std::string& text, int x, int y, double size,
+                         const cv::Scalar& colour = kTextColour) {
+    drawText(text, {x, area.y + cvRound(y * scale)}, size, colour, bgr);
   };
 
   const int left = cvRound(10 * scale);
@@ -118,7 +119,7 @@ void drawLegend(const LineFrame& frame, cv::Mat& bgr) {
   const int text_left = left + bar_width + cvRound(26 * scale);
   const int width = area.width - text_left - left;
   write(fitting("age [images]   " + legendText(frame), width, bgr), text_left, 14, kTextSize);
-  write(fitting(lossText(frame.statistics), width, bgr), text_left, 30, kTextSize);
+  write(fitting(lossText(frame.statistics), width, bgr), text_left, 30, kTextSize, kLossColour);
 }
 
 }  // namespace tet_line_tracker

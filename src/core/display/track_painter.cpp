@@ -39,12 +39,11 @@ void drawLine(const LineCurve& line, const cv::Scalar& colour, cv::Mat& bgr) {
   cv::circle(bgr, end, radius, colour, drawingThickness(1, bgr), cv::LINE_AA, kDrawingShift);
 }
 
-constexpr double kIdSize = 0.34;
+constexpr double kLabelSize = 0.34;
 
-/// What was lost: thin dashes with a dark rim, in a colour that no age has.
+/// What was lost: thin dashes with a dark rim.
 void drawLost(const LineCurve& line, cv::Mat& bgr) {
   constexpr float kPeriod = 12.0F;  // [px]
-  const cv::Scalar colour(230, 120, 255);
   const float period = kPeriod * std::max(1.0F, static_cast<float>(drawingScale(bgr)));
   const float length = clampOrLow(line.chord.length(), 0.0F, 1e4F);
   const int dashes = 1 + static_cast<int>(length / period);
@@ -54,8 +53,14 @@ void drawLost(const LineCurve& line, cv::Mat& bgr) {
     const cv::Point from = fixedPoint(line.at(begin));
     const cv::Point to = fixedPoint(line.at(end));
     cv::line(bgr, from, to, cv::Scalar::all(20), drawingThickness(3.2, bgr), cv::LINE_AA, kDrawingShift);
-    cv::line(bgr, from, to, colour, drawingThickness(1.4, bgr), cv::LINE_AA, kDrawingShift);
+    cv::line(bgr, from, to, kLossColour, drawingThickness(1.4, bgr), cv::LINE_AA, kDrawingShift);
   }
+}
+
+LossReason reasonOf(std::uint64_t id, const std::vector<LostLine>& lost) {
+  const auto found =
+      std::find_if(lost.begin(), lost.end(), [id](const LostLine& line) { return line.id == id; });
+  return found == lost.end() ? LossReason::kCount : found->reason;
 }
 
 }  // namespace
@@ -90,10 +95,9 @@ void TrackPainter::paint(const cv::Mat& gray, const LineFrame& frame, cv::Mat& b
   cv::cvtColor(gray, bgr, cv::COLOR_GRAY2BGR);
   if (lens_size_ != gray.size()) lens_ = LensBend(camera_, gray.cols, gray.rows);
   lens_size_ = gray.size();
-  const std::vector<LineSegment> lost = follow(frame);
-  if (style_.lost) {
-    for (const LineSegment& segment : lost) drawLost(lens_.curve(segment), bgr);
-  }
+  std::vector<Loss> losses = follow(frame);
+  if (!style_.lost) losses.clear();
+  for (const Loss& loss : losses) drawLost(loss.line, bgr);
   for (const TrackedLine& line : frame.lines) {
     const auto trail = trails_.find(line.id);
     if (trail != trails_.end()) drawTrail(trail->second, bgrOfAge(line.age), bgr);
@@ -104,27 +108,37 @@ void TrackPainter::paint(const cv::Mat& gray, const LineFrame& frame, cv::Mat& b
     curves.push_back(lens_.curve(line.segment));
     drawLine(curves.back(), bgrOfAge(line.age), bgr);
   }
-  if (style_.ids) drawIds(frame, curves, bgr);
+  drawLabels(frame, curves, losses, bgr);
   if (style_.scale) drawLegend(frame, bgr);
 }
 
-void TrackPainter::drawIds(const LineFrame& frame, const std::vector<LineCurve>& curves, cv::Mat& bgr) const {
+void TrackPainter::drawLabels(const LineFrame& frame, const std::vector<LineCurve>& curves,
+                              const std::vector<Loss>& losses, cv::Mat& bgr) const {
+  if (!style_.ids && losses.empty()) return;
   LabelPlacer placer(bgr.size());
   if (style_.scale) placer.take(legendArea(bgr.size()));
   for (const LineCurve& curve : curves) placer.take(curve);
+  for (const Loss& loss : losses) placer.take(loss.line);
+  const auto write = [&](const std::string& text, const LineCurve& line, const cv::Scalar& colour) {
+    const auto corner = placer.place(line, textExtent(text, kLabelSize, bgr));
+    if (corner) drawText(text, *corner, kLabelSize, colour, bgr);
+  };
+  // Few, and in no other image: they come before the ids.
+  for (const Loss& loss : losses) {
+    if (loss.reason != LossReason::kCount) write(nameOf(loss.reason), loss.line, kLossColour);
+  }
+  if (!style_.ids) return;
   std::vector<std::size_t> oldest_first(curves.size());
   std::iota(oldest_first.begin(), oldest_first.end(), 0);
   std::stable_sort(oldest_first.begin(), oldest_first.end(), [&frame](std::size_t a, std::size_t b) {
     return frame.lines[a].age > frame.lines[b].age;
   });
   for (const std::size_t i : oldest_first) {
-    const std::string id = std::to_string(frame.lines[i].id);
-    const auto corner = placer.place(curves[i], textExtent(id, kIdSize, bgr));
-    if (corner) drawText(id, *corner, kIdSize, cv::Scalar::all(255), bgr);
+    write(std::to_string(frame.lines[i].id), curves[i], cv::Scalar::all(255));
   }
 }
 
-std::vector<LineSegment> TrackPainter::follow(const LineFrame& frame) {
+std::vector<TrackPainter::Loss> TrackPainter::follow(const LineFrame& frame) {
   const bool is_next = frame.epoch == epoch_ && frame.image_count == image_count_ + 1;
   if (frame.epoch != epoch_) trails_.clear();
   epoch_ = frame.epoch;
@@ -136,13 +150,20 @@ std::vector<LineSegment> TrackPainter::follow(const LineFrame& frame) {
     trail.segments.push_back(line.segment);
     if (trail.segments.size() > style_.trail_images + 1) trail.segments.pop_front();
   }
-  std::vector<LineSegment> lost;
+  std::vector<Loss> losses;
   for (auto trail = trails_.begin(); trail != trails_.end();) {
     const bool is_lost = trail->second.painted != paintings_;
-    if (is_lost && is_next) lost.push_back(trail->second.segments.back());
+    if (is_lost && is_next) {
+      const LineCurve line = lens_.curve(trail->second.segments.back());
+      losses.push_back({trail->first, line, reasonOf(trail->first, frame.lost)});
+    }
     trail = is_lost ? trails_.erase(trail) : std::next(trail);
   }
-  return lost;
+  const auto length = [](const Loss& loss) { return clampOrLow(loss.line.chord.length(), 0.0F, 1e6F); };
+  std::sort(losses.begin(), losses.end(), [&length](const Loss& a, const Loss& b) {
+    return length(a) != length(b) ? length(a) > length(b) : a.id < b.id;
+  });
+  return losses;
 }
 
 void TrackPainter::drawTrail(const Trail& trail, const cv::Scalar& colour, cv::Mat& bgr) const {

@@ -1,5 +1,7 @@
 #include "tet_line_tracker/geometry/line_bend.h"
 
+#include "geometry/last_inside.h"
+
 namespace tet_line_tracker {
 
 std::optional<LineSegment> clip(const LineCurve& curve, const ImageBounds& bounds) {
@@ -15,18 +17,10 @@ std::optional<LineSegment> clip(const LineCurve& curve, const ImageBounds& bound
     if (i == kSteps) return std::nullopt;
     inside = static_cast<float>(i) / kSteps;
   }
-  const auto lastInside = [&](float beyond) {
-    constexpr float kAccuracy = 0.005F;  // [px]
-    float last = inside;
-    while (std::abs(beyond - last) * curve.chord.length() > kAccuracy) {
-      const float middle = 0.5F * (last + beyond);
-      (bounds.contains(curve.at(middle)) ? last : beyond) = middle;
-    }
-    return curve.at(last);
-  };
+  const auto contains = [&bounds](const Eigen::Vector2f& point) { return bounds.contains(point); };
   LineSegment clipped = curve.chord;
-  if (!start_inside) clipped.start = lastInside(0.0F);
-  if (!end_inside) clipped.end = lastInside(1.0F);
+  if (!start_inside) clipped.start = lastInside(curve, inside, 0.0F, contains);
+  if (!end_inside) clipped.end = lastInside(curve, inside, 1.0F, contains);
   return clipped;
 }
 

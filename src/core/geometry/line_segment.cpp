@@ -8,7 +8,10 @@ namespace tet_line_tracker {
 float angleBetween(const LineSegment& a, const LineSegment& b) {
   const Eigen::Vector2f u = a.direction();
   const Eigen::Vector2f v = b.direction();
-  return std::abs(std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v)));
+  // Of doubles: atan2f differs between processors.
+  const double cross = u.x() * v.y() - u.y() * v.x();
+  const double dot = u.dot(v);
+  return static_cast<float>(std::abs(std::atan2(cross, dot)));
 }
 
 float overlap(const LineSegment& a, const LineSegment& b) {

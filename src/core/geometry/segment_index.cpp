@@ -10,6 +10,8 @@ namespace {
 
 /// Tangent of the angle between a bent line and its chord, at most.
 constexpr float kMaxBendSlope = 0.5F;
+/// Of the middles of two lines that lie side by side, over the sum of their half lengths.
+constexpr float kMaxSpread = 1.5F;
 
 }  // namespace
 
@@ -49,7 +51,7 @@ void SegmentIndex::add(const LineCurve& line) {
   int& head = heads_[static_cast<std::size_t>(sectorOf(line.chord))];
   next_.push_back(head);
   head = static_cast<int>(lines_.size());
-  lines_.push_back(line);
+  lines_.push_back({line, line.chord.middle(), 0.5F * line.chord.length()});
   all_straight_ = all_straight_ && line.bend.isStraight();
 }
 
@@ -58,14 +60,19 @@ bool SegmentIndex::containsDuplicateOf(const LineCurve& line) const {
   const Eigen::Vector2f direction = line.chord.end - line.chord.start;
   const bool straight = all_straight_ && line.bend.isStraight();
   const float max_tangent = criteria_.max_tangent + (straight ? 0.0F : kMaxBendSlope);
+  const Eigen::Vector2f middle = line.chord.middle();
+  const float reach = 0.5F * line.chord.length() + criteria_.max_distance;
   for (const int near : {sector, (sector + 1) % kSectors, (sector + kSectors - 1) % kSectors}) {
     for (int i = heads_[static_cast<std::size_t>(near)]; i != kNone; i = next_[static_cast<std::size_t>(i)]) {
-      // The cheap test first: nearly all pairs fail it.
-      const LineCurve& other = lines_[static_cast<std::size_t>(i)];
-      const Eigen::Vector2f way = other.chord.end - other.chord.start;
+      // The cheap tests first: nearly all pairs fail one of them.
+      const Entry& other = lines_[static_cast<std::size_t>(i)];
+      // Side by side they are within their half lengths, and a bend leaves its chord by less than that.
+      const float farthest = kMaxSpread * (reach + other.half_length);
+      if ((other.middle - middle).squaredNorm() > farthest * farthest) continue;
+      const Eigen::Vector2f way = other.line.chord.end - other.line.chord.start;
       const float cross = direction.x() * way.y() - direction.y() * way.x();
       if (std::abs(cross) > max_tangent * direction.dot(way)) continue;
-      if (areDuplicates(line, other, criteria_)) return true;
+      if (areDuplicates(line, other.line, criteria_)) return true;
     }
   }
   return false;

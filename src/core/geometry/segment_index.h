@@ -29,6 +29,12 @@ class SegmentIndex {
   bool containsDuplicateOf(const LineCurve& line) const;
 
  private:
+  struct Entry {
+    LineCurve line;
+    Eigen::Vector2f middle;  ///< of the chord [px]
+    float half_length;       ///< of the chord [px]
+  };
+
   static constexpr int kSectors = 16;
   static constexpr int kNone = -1;
 
@@ -36,8 +42,8 @@ class SegmentIndex {
 
   DuplicateCriteria criteria_;
   bool all_straight_{true};
-  std::vector<LineCurve> lines_;
-  std::vector<int> next_;            ///< of each segment, in the same sector
+  std::vector<Entry> lines_;
+  std::vector<int> next_;            ///< of each line, in the same sector
   std::array<int, kSectors> heads_;  ///< last segment of each sector of directions
 };
 

@@ -92,6 +92,7 @@ struct EdgeSamples {
   const float* places;   ///< along the line, -1 at its start to 1 at its end
   const float* offsets;  ///< from the line, along its normal [px]
   const float* slopes;   ///< [gray / px]
+  const float* widths;   ///< of the edge across the line [px]
   int count;
 };
 
@@ -129,8 +130,9 @@ struct KernelTable {
   float (*absoluteDifference)(const float* patch, const PatchShape& shape, const PatchTemplate& reference,
                               float gain, float offset);
 
-  /// Steepest place of each profile, and its slope [gray / px]; slope 0 where nothing rises as sought.
-  void (*findEdges)(const ProfileBatch& batch, float* places, float* slopes);
+  /// Steepest place of each profile, its slope [gray / px], and how wide the edge is: its height over its
+  /// steepest difference [px]. Slope 0 where nothing rises as sought.
+  void (*findEdges)(const ProfileBatch& batch, float* places, float* slopes, float* widths);
 
   /// Sums of w, w p, w p^2, w o and w p o over samples at places p with offsets o that are at least
   /// `min_slope` steep; w is Tukey's weight of the distance from `fit`, 0 from `width` [px] on.
@@ -138,7 +140,7 @@ struct KernelTable {
                      float* sums);
 
   /// Number of samples nearer than `reach` [px] to `fit` and at least `min_slope` steep, and the sums of
-  /// their slopes and squared distances.
+  /// their slopes, squared distances and widths.
   void (*sumSupport)(const EdgeSamples& samples, const OffsetFit& fit, float reach, float min_slope,
                      float* sums);
 

@@ -12,8 +12,8 @@ namespace {
 
 /// 1 for columns inside the patch, 0 outside.
 inline __attribute__((always_inline)) Float8 insideColumns(int vector, int side) {
-  const Int8 lanes = {0, 1, 2, 3, 4, 5, 6, 7};
-  const Mask8 inside = (lanes + vector * kLanes) < side;
+  const Int8 lanes = {0, 1, 2, 3, 4, 5, 6, 7}, none = {0, 0, 0, 0, 0, 0, 0, 0};
+  const Mask8 inside = less(lanes + vector * kLanes, none + side);
   const Float8 one = {1, 1, 1, 1, 1, 1, 1, 1};
   return (Float8)((Int8)one & inside);
 }
@@ -29,6 +29,12 @@ inline __attribute__((always_inline)) Short16 loadShorts(const std::uint8_t* pix
   Short16 vector;
   __builtin_memcpy(&vector, halves, sizeof vector);
   return vector;
+#elif defined(__ARM_NEON)
+  const uint8x16_t bytes = vld1q_u8(pixels);
+  const uint16x8_t halves[2] = {vmovl_u8(vget_low_u8(bytes)), vmovl_u8(vget_high_u8(bytes))};
+  Short16 vector;
+  __builtin_memcpy(&vector, halves, sizeof vector);
+  return vector;
 #else
   Byte16 bytes;
   __builtin_memcpy(&bytes, pixels, sizeof bytes);
@@ -36,6 +42,19 @@ inline __attribute__((always_inline)) Short16 loadShorts(const std::uint8_t* pix
 #endif
 }
 
+#if defined(__ARM_NEON)
+/// Eight pixels of the next level from seventeen vertical sums around `sums`.
+inline __attribute__((always_inline)) uint8x8_t halveEight(const std::uint16_t* sums) {
+  const uint16x8_t left = vld2q_u16(sums - 2).val[1];
+  const uint16x8x2_t pair = vld2q_u16(sums);
+  return vrshrn_n_u16(vaddq_u16(vaddq_u16(left, pair.val[1]), vshlq_n_u16(pair.val[0], 1)), 4);
+}
+
+inline __attribute__((always_inline)) void storeBytes(std::uint8_t* output, uint8x8_t first,
+                                                      uint8x8_t second) {
+  vst1q_u8(output, vcombine_u8(first, second));
+}
+#else
 /// Stores sixteen numbers of 0..255 as bytes.
 inline __attribute__((always_inline)) void storeBytes(std::uint8_t* output, Int8 first, Int8 second) {
 #if defined(__SSE2__)
@@ -46,10 +65,10 @@ inline __attribute__((always_inline)) void storeBytes(std::uint8_t* output, Int8
       _mm_packus_epi16(_mm_packs_epi32(quarters[0], quarters[1]), _mm_packs_epi32(quarters[2], quarters[3]));
   _mm_storeu_si128(reinterpret_cast<__m128i*>(output), bytes);
 #else
-  for (int i = 0; i < kLanes; ++i) {
-    output[i] = static_cast<std::uint8_t>(first[i]);
-    output[i + kLanes] = static_cast<std::uint8_t>(second[i]);
-  }
+  std::int32_t numbers[2 * kLanes];
+  __builtin_memcpy(numbers, &first, sizeof first);
+  __builtin_memcpy(numbers + kLanes, &second, sizeof second);
+  for (int i = 0; i < 2 * kLanes; ++i) output[i] = static_cast<std::uint8_t>(numbers[i]);
 #endif
 }
 
@@ -62,6 +81,7 @@ inline __attribute__((always_inline)) Int8 halveEight(const std::uint16_t* sums)
   const Int8 low = {0xffff, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff, 0xffff};
   return (((left >> 16) & low) + (pair & low) * 2 + ((pair >> 16) & low) + 8) >> 4;
 }
+#endif
 
 void halveRow(const std::uint8_t* above, const std::uint8_t* middle, const std::uint8_t* below, int width,
               std::uint16_t* row, std::uint8_t* output) {
@@ -80,8 +100,7 @@ void halveRow(const std::uint8_t* above, const std::uint8_t* middle, const std::
   const int half = (width + 1) / 2;
   x = 0;
   for (; x + 16 < half; x += 16) {
-    const Int8 totals[2] = {halveEight(sums + 2 * x), halveEight(sums + 2 * x + 16)};
-    storeBytes(output + x, totals[0], totals[1]);
+    storeBytes(output + x, halveEight(sums + 2 * x), halveEight(sums + 2 * x + 16));
   }
   for (; x < half; ++x) {
     output[x] = static_cast<std::uint8_t>((sums[2 * x - 1] + 2 * sums[2 * x] + sums[2 * x + 1] + 8) >> 4);
@@ -89,7 +108,7 @@ void halveRow(const std::uint8_t* above, const std::uint8_t* middle, const std::
 }
 
 template <int kVectors>
-inline __attribute__((always_inline)) void readRow(const std::uint8_t* pixels, float fraction_x,
+inline __attribute__((always_inline)) void readRow(const std::uint8_t* pixels, Float8 fraction_x,
                                                    Float8* row) {
   for (int v = 0; v < kVectors; ++v) {
     const Float8 left = loadPixels(pixels + v * kLanes);
@@ -100,7 +119,7 @@ inline __attribute__((always_inline)) void readRow(const std::uint8_t* pixels, f
 
 /// A row of a larger patch: gray one pixel right of `pixels`, and its central difference, unscaled.
 template <int kVectors>
-inline __attribute__((always_inline)) void readRowWithSlope(const std::uint8_t* pixels, float fraction_x,
+inline __attribute__((always_inline)) void readRowWithSlope(const std::uint8_t* pixels, Float8 fraction_x,
                                                             Float8* gray, Float8* slope) {
   for (int v = 0; v < kVectors; ++v) {
     const std::uint8_t* p = pixels + v * kLanes;
@@ -117,34 +136,36 @@ void makeTemplateOf(const PatchPlace& place, const PatchShape& shape, PatchTempl
   Float8 inside[kVectors];
   for (int v = 0; v < kVectors; ++v) inside[v] = insideColumns(v, shape.side);
   // Sums are taken about some gray value of the patch: small numbers keep their digits.
-  const float origin = static_cast<float>(place.data[place.stride + 1]);
+  const auto first = static_cast<float>(place.data[place.stride + 1]);
+  const Float8 origin = broadcast(first);
+  const Float8 fraction_x = broadcast(place.fraction_x), fraction_y = broadcast(place.fraction_y);
+  const Float8 half = broadcast(0.5F);
 
   Float8 g = zero, x = zero, y = zero, gg = zero, gx = zero, gy = zero, xx = zero, xy = zero, yy = zero;
   // Rows above, at and below the one that is written, and the image row that follows.
   Float8 above[kVectors], here[kVectors], slope_here[kVectors], gray[kVectors], slope[kVectors];
   Float8 next_gray[kVectors], next_slope[kVectors];
-  readRowWithSlope<kVectors>(place.data, place.fraction_x, gray, slope);
-  readRowWithSlope<kVectors>(place.data + place.stride, place.fraction_x, next_gray, next_slope);
+  readRowWithSlope<kVectors>(place.data, fraction_x, gray, slope);
+  readRowWithSlope<kVectors>(place.data + place.stride, fraction_x, next_gray, next_slope);
   for (int v = 0; v < kVectors; ++v) {
-    above[v] = gray[v] + (next_gray[v] - gray[v]) * place.fraction_y;
+    above[v] = gray[v] + (next_gray[v] - gray[v]) * fraction_y;
     gray[v] = next_gray[v];
     slope[v] = next_slope[v];
   }
-  readRowWithSlope<kVectors>(place.data + 2 * place.stride, place.fraction_x, next_gray, next_slope);
+  readRowWithSlope<kVectors>(place.data + 2 * place.stride, fraction_x, next_gray, next_slope);
   for (int v = 0; v < kVectors; ++v) {
-    here[v] = gray[v] + (next_gray[v] - gray[v]) * place.fraction_y;
-    slope_here[v] = slope[v] + (next_slope[v] - slope[v]) * place.fraction_y;
+    here[v] = gray[v] + (next_gray[v] - gray[v]) * fraction_y;
+    slope_here[v] = slope[v] + (next_slope[v] - slope[v]) * fraction_y;
     gray[v] = next_gray[v];
     slope[v] = next_slope[v];
   }
   for (int row = 0; row < shape.side; ++row) {
-    readRowWithSlope<kVectors>(place.data + (row + 3) * place.stride, place.fraction_x, next_gray,
-                               next_slope);
+    readRowWithSlope<kVectors>(place.data + (row + 3) * place.stride, fraction_x, next_gray, next_slope);
     for (int v = 0; v < kVectors; ++v) {
-      const Float8 below = gray[v] + (next_gray[v] - gray[v]) * place.fraction_y;
+      const Float8 below = gray[v] + (next_gray[v] - gray[v]) * fraction_y;
       const Float8 a = (here[v] - origin) * inside[v];
-      const Float8 b = slope_here[v] * 0.5F * inside[v];
-      const Float8 c = (below - above[v]) * 0.5F * inside[v];
+      const Float8 b = slope_here[v] * half * inside[v];
+      const Float8 c = (below - above[v]) * half * inside[v];
       const int i = (row * kVectors + v) * kLanes;
       store(patch->gray + i, a);
       store(patch->gradient_x + i, b);
@@ -162,14 +183,14 @@ void makeTemplateOf(const PatchPlace& place, const PatchShape& shape, PatchTempl
       yy += c * c;
       above[v] = here[v];
       here[v] = below;
-      slope_here[v] = slope[v] + (next_slope[v] - slope[v]) * place.fraction_y;
+      slope_here[v] = slope[v] + (next_slope[v] - slope[v]) * fraction_y;
       gray[v] = next_gray[v];
       slope[v] = next_slope[v];
     }
   }
   const float g_sum = sum(g);
   const float mean = g_sum / pixels;
-  patch->mean = origin + mean;
+  patch->mean = first + mean;
   patch->gray_gray = sum(gg) - g_sum * mean;
   patch->xx = sum(xx);
   patch->xy = sum(xy);
@@ -189,14 +210,16 @@ void makeTemplateOf(const PatchPlace& place, const PatchShape& shape, PatchTempl
     patch->xy -= sum(x) * y_mean + x_gain * gray_y;
     patch->yy -= sum(y) * y_mean + y_gain * gray_y;
   }
+  const Float8 gray_mean = broadcast(mean), x_means = broadcast(x_mean), y_means = broadcast(y_mean);
+  const Float8 x_gains = broadcast(x_gain), y_gains = broadcast(y_gain);
   for (int row = 0; row < shape.side; ++row) {
     for (int v = 0; v < kVectors; ++v) {
       const int i = (row * kVectors + v) * kLanes;
-      const Float8 a = (load(patch->gray + i) - mean) * inside[v];
+      const Float8 a = (load(patch->gray + i) - gray_mean) * inside[v];
       store(patch->gray + i, a);
       if (!kProject) continue;
-      store(patch->gradient_x + i, (load(patch->gradient_x + i) - x_mean - a * x_gain) * inside[v]);
-      store(patch->gradient_y + i, (load(patch->gradient_y + i) - y_mean - a * y_gain) * inside[v]);
+      store(patch->gradient_x + i, (load(patch->gradient_x + i) - x_means - a * x_gains) * inside[v]);
+      store(patch->gradient_y + i, (load(patch->gradient_y + i) - y_means - a * y_gains) * inside[v]);
     }
   }
 }
@@ -225,12 +248,14 @@ void makeTemplate(const PatchPlace& place, const PatchShape& shape, bool project
 template <int kVectors, typename Take>
 inline __attribute__((always_inline)) void readPatch(const PatchPlace& place, int side, float mean,
                                                      const Take& take) {
+  const Float8 fraction_x = broadcast(place.fraction_x), fraction_y = broadcast(place.fraction_y);
+  const Float8 means = broadcast(mean);
   Float8 upper[kVectors], lower[kVectors];
-  readRow<kVectors>(place.data, place.fraction_x, upper);
+  readRow<kVectors>(place.data, fraction_x, upper);
   for (int y = 0; y < side; ++y) {
-    readRow<kVectors>(place.data + (y + 1) * place.stride, place.fraction_x, lower);
+    readRow<kVectors>(place.data + (y + 1) * place.stride, fraction_x, lower);
     for (int v = 0; v < kVectors; ++v) {
-      take(y * kVectors + v, upper[v] + (lower[v] - upper[v]) * place.fraction_y - mean);
+      take(y * kVectors + v, upper[v] + (lower[v] - upper[v]) * fraction_y - means);
       upper[v] = lower[v];
     }
   }
@@ -302,11 +327,12 @@ void subtract(const PatchPlace& place, const PatchShape& shape, const PatchTempl
 
 float absoluteDifference(const float* patch, const PatchShape& shape, const PatchTemplate& reference,
                          float gain, float offset) {
+  const Float8 gains = broadcast(gain), offsets = broadcast(offset);
   Float8 total = {0, 0, 0, 0, 0, 0, 0, 0};
   for (int y = 0; y < shape.side; ++y) {
     for (int v = 0; v < shape.vectors; ++v) {
       const int k = (y * shape.vectors + v) * kLanes;
-      const Float8 difference = load(patch + k) - load(reference.gray + k) * gain - offset;
+      const Float8 difference = load(patch + k) - load(reference.gray + k) * gains - offsets;
       total += absolute(difference) * insideColumns(v, shape.side);
     }
   }

@@ -102,8 +102,8 @@ std::optional<double> EgoMotionTracker::odometryRatio(const std::optional<Eigen:
 }
 
 EgoMotion EgoMotionTracker::follow(const ImagePyramid& pyramid, double interval_s,
-                                   const Eigen::Matrix3d& rotation, const std::optional<Turn>& measured,
-                                   std::size_t min_inliers) {
+                                   const Eigen::Matrix3d& rotation,
+                                   const std::optional<MeasuredRotation>& measured, std::size_t min_inliers) {
   expect(rotation, interval_s);
   corners_.follow(pyramid);
   collectPairs(rotation);
@@ -162,7 +162,7 @@ void EgoMotionTracker::learnDepths(const EgoMotion& motion, double ratio) {
 }
 
 EgoMotion EgoMotionTracker::followFromElsewhere(const ImagePyramid& pyramid, double interval_s,
-                                                const std::optional<Turn>& measured,
+                                                const std::optional<MeasuredRotation>& measured,
                                                 MotionPrediction& prediction) {
   const Eigen::Matrix3d predicted = prediction.rotation;
   EgoMotion motion;
@@ -185,8 +185,8 @@ EgoMotion EgoMotionTracker::followFromElsewhere(const ImagePyramid& pyramid, dou
 }
 
 void EgoMotionTracker::update(const ImagePyramid& pyramid, double interval_s,
-                              const std::optional<Turn>& measured, const std::optional<Eigen::Vector3d>& step,
-                              MotionPrediction& prediction) {
+                              const std::optional<MeasuredRotation>& measured,
+                              const std::optional<Eigen::Vector3d>& step, MotionPrediction& prediction) {
   if (!camera_) return;
   rememberPlaces();
   EgoMotion motion = follow(pyramid, interval_s, prediction.rotation, measured, 0);

@@ -21,7 +21,7 @@ namespace tet_line_tracker {
 class EgoMotionTracker {
  public:
   /// How the gyroscope says that the camera turned, and the deviation of that [rad].
-  struct Turn {
+  struct MeasuredRotation {
     Eigen::Matrix3d rotation;
     double deviation;
     bool trusted;  ///< it has agreed with the images before
@@ -36,7 +36,7 @@ class EgoMotionTracker {
   /// by its translation, and corrects the rotation. `interval_s`: between both images [s]. `measured`: how it
   /// turned by the gyroscope, which no parallax deceives. `step`: how points move by an odometry while the
   /// camera takes its step, which turned as `prediction` says [m].
-  void update(const ImagePyramid& pyramid, double interval_s, const std::optional<Turn>& measured,
+  void update(const ImagePyramid& pyramid, double interval_s, const std::optional<MeasuredRotation>& measured,
               const std::optional<Eigen::Vector3d>& step, MotionPrediction& prediction);
 
   /// Inverse depth of what is near `pixel` in the image before the last update(), in units of 1 / the step of
@@ -61,11 +61,12 @@ class EgoMotionTracker {
   /// Follows the corners from where `rotation` puts them, and takes the motion from them; not known when
   /// fewer than `min_inliers` agree.
   EgoMotion follow(const ImagePyramid& pyramid, double interval_s, const Eigen::Matrix3d& rotation,
-                   const std::optional<Turn>& measured, std::size_t min_inliers);
+                   const std::optional<MeasuredRotation>& measured, std::size_t min_inliers);
   /// Where the prediction led the corners astray: from the gyroscope's rotation, or without it from going on
   /// as before and from a few turns. Corrects the prediction when it finds them again.
   EgoMotion followFromElsewhere(const ImagePyramid& pyramid, double interval_s,
-                                const std::optional<Turn>& measured, MotionPrediction& prediction);
+                                const std::optional<MeasuredRotation>& measured,
+                                MotionPrediction& prediction);
   void expect(const Eigen::Matrix3d& rotation, double interval_s);
   void collectPairs(const Eigen::Matrix3d& rotation);
   double stepRatio(const EgoMotion& motion, double fallback);

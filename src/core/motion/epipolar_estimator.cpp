@@ -1,6 +1,7 @@
 #include "motion/epipolar_estimator.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -18,6 +19,8 @@ constexpr double kRansacScale = 2.0;  ///< distances count up to this one; the r
 constexpr double kInlierDistance = 1.5;  ///< [px]
 constexpr double kRobustScale = 0.7;     ///< of the weights in the fit [px]
 constexpr int kIterations = 7;
+constexpr double kLastStep = 1e-6;       ///< the iterations end with a smaller one [rad]
+constexpr int kWideIterations = 3;       ///< of the weights
 constexpr double kSureRotation = 0.005;  ///< with more, several directions may fit [rad]
 constexpr double kMinSine = 0.05;  ///< towards the epipole the distance from the epipolar plane says little
 constexpr double kMinInliers = 0.5;
@@ -27,20 +30,53 @@ Eigen::Vector3d turned(const PointPair& pair, const Eigen::Vector3d& rotation) {
   return pair.before + rotation.cross(pair.before);
 }
 
-/// What turns translation . (before x now) into the distance from the epipolar line [px].
-double scaleOf(const Eigen::Vector3d& before, const Eigen::Vector3d& translation, double per_px) {
-  const double sine = before.cross(translation).norm() / before.norm();
-  return per_px / std::max(kMinSine, sine);
+/// The square of what turns translation . (before x now) into the distance from the epipolar line [px]:
+/// per_px over the sine between `before` and the translation. `along`: component of `before` along it.
+double squaredScale(double before_square, double along, double per_px) {
+  const double across_square = before_square - along * along;
+  return per_px * per_px * before_square / std::max(kMinSine * kMinSine * before_square, across_square);
 }
+
+double squaredScale(const Eigen::Vector3d& before, const Eigen::Vector3d& translation, double per_px) {
+  return squaredScale(before.squaredNorm(), before.dot(translation), per_px);
+}
+
+/// Weighted sums of the products of five derivatives and of the distance, the upper triangle by rows.
+class NormalEquations {
+ public:
+  void add(double weight, double distance, const std::array<double, 5>& row) {
+    double* sum = products_.data();
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const double weighted = weight * row[i];
+      gradient_[i] += weighted * distance;
+      for (std::size_t j = i; j < row.size(); ++j) *sum++ += weighted * row[j];
+    }
+  }
+  Eigen::Matrix<double, 5, 5> hessian() const {
+    Eigen::Matrix<double, 5, 5> full;
+    const double* sum = products_.data();
+    for (int i = 0; i < 5; ++i) {
+      for (int j = i; j < 5; ++j) full(i, j) = full(j, i) = *sum++;
+    }
+    return full;
+  }
+  Eigen::Matrix<double, 5, 1> gradient() const {
+    return Eigen::Map<const Eigen::Matrix<double, 5, 1>>(gradient_.data());
+  }
+
+ private:
+  std::array<double, 15> products_{};
+  std::array<double, 5> gradient_{};
+};
 
 }  // namespace
 
 double EpipolarEstimator::costOf(const Eigen::Vector3d& translation) const {
   double sum = 0.0;
   for (const Constraint& constraint : constraints_) {
-    const double distance =
-        translation.dot(constraint.cross) * scaleOf(constraint.before, translation, constraint.per_px);
-    sum += std::min(kRansacScale * kRansacScale, distance * distance);
+    const double off = translation.dot(constraint.cross);
+    sum += std::min(kRansacScale * kRansacScale,
+                    off * off * squaredScale(constraint.before, translation, constraint.per_px));
   }
   return sum;
 }
@@ -54,9 +90,11 @@ double EpipolarEstimator::behindCost(const std::vector<PointPair>& pairs, const 
     const Eigen::Vector3d cross = before.cross(pairs[i].now);
     const Eigen::Vector3d across = pairs[i].now.cross(candidate.translation);
     const double norm = across.norm();
-    const double distance =
-        candidate.translation.dot(cross) * scaleOf(before, candidate.translation, constraints_[i].per_px);
-    if (!(norm > kMinSine * pairs[i].now.norm()) || std::abs(distance) > kInlierDistance) continue;
+    const double off = candidate.translation.dot(cross);
+    const double square_distance =
+        off * off * squaredScale(before, candidate.translation, constraints_[i].per_px);
+    if (!(norm > kMinSine * pairs[i].now.norm()) || square_distance > kInlierDistance * kInlierDistance)
+      continue;
     const double movement = constraints_[i].per_px * across.dot(cross) / norm / kRobustScale;
     const double square = movement * movement;
     (movement < 0.0 ? behind : ahead) += square / (1.0 + square);
@@ -75,31 +113,31 @@ EpipolarEstimator::Candidate EpipolarEstimator::fit(const std::vector<PointPair>
     const Eigen::Vector3d u = best.unitOrthogonal();
     const Eigen::Vector3d v = best.cross(u);
     // Wide at first, so that it does not end where it begins.
-    const double width = kRobustScale * std::max(1.0, 4.0 - iteration);
+    const double width = kRobustScale * std::max(1, 1 + kWideIterations - iteration);
     const double inverse_square = 1.0 / (width * width);
-    Eigen::Matrix<double, 5, 5> hessian = Eigen::Matrix<double, 5, 5>::Zero();
-    Eigen::Matrix<double, 5, 1> gradient = Eigen::Matrix<double, 5, 1>::Zero();
+    NormalEquations equations;
     const Eigen::Vector3d from_prior = candidate.rotation - known.rotation;
     double cost = prior * from_prior.squaredNorm();
     for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const Eigen::Vector3d& now = pairs[i].now;
       const Eigen::Vector3d before = turned(pairs[i], candidate.rotation);
-      const Eigen::Vector3d cross = before.cross(pairs[i].now);
-      const double scale = scaleOf(before, best, constraints_[i].per_px);
-      const double distance = scale * best.dot(cross);
-      const double shrink = 1.0 / (1.0 + distance * distance * inverse_square);
-      cost += distance * distance * inverse_square * shrink;
-      Eigen::Matrix<double, 5, 1> row;
-      row.head<3>() = scale * before.cross(pairs[i].now.cross(best));
-      row[3] = scale * u.dot(cross);
-      row[4] = scale * v.dot(cross);
-      const double weight = inverse_square * shrink * shrink;
-      hessian.noalias() += weight * row * row.transpose();
-      gradient.noalias() += weight * distance * row;
+      const Eigen::Vector3d cross = before.cross(now);
+      const double along = before.dot(best);
+      const double off = best.dot(cross);
+      const double scale = inverse_square * squaredScale(before.squaredNorm(), along, constraints_[i].per_px);
+      const double shrink = 1.0 / (1.0 + off * off * scale);
+      cost += off * off * scale * shrink;
+      // before x (now x best), by the rule for double products.
+      const Eigen::Vector3d by_rotation = along * now - before.dot(now) * best;
+      equations.add(scale * shrink * shrink, off,
+                    {by_rotation.x(), by_rotation.y(), by_rotation.z(), u.dot(cross), v.dot(cross)});
     }
     if (iteration == kIterations) {
       candidate.cost = cost + behindCost(pairs, candidate);
       break;
     }
+    Eigen::Matrix<double, 5, 5> hessian = equations.hessian();
+    Eigen::Matrix<double, 5, 1> gradient = equations.gradient();
     hessian.topLeftCorner<3, 3>().diagonal().array() += prior;
     hessian.diagonal().array() += 1e-6;
     gradient.head<3>() += prior * from_prior;
@@ -109,6 +147,8 @@ EpipolarEstimator::Candidate EpipolarEstimator::fit(const std::vector<PointPair>
       break;
     }
     candidate.rotation += step.head<3>();
+    if (iteration >= kWideIterations && step.squaredNorm() < kLastStep * kLastStep)
+      iteration = kIterations - 1;
     best = (best + std::clamp(step[3], -0.5, 0.5) * u + std::clamp(step[4], -0.5, 0.5) * v).normalized();
   }
   return candidate;
@@ -182,7 +222,9 @@ EgoMotion EpipolarEstimator::estimate(std::vector<PointPair>& pairs, double foca
     PointPair& pair = pairs[i];
     const Eigen::Vector3d before = turned(pair, rotation);
     const Eigen::Vector3d cross = before.cross(pair.now);
-    pair.inlier = std::abs(best.dot(cross)) * scaleOf(before, best, constraints_[i].per_px) < kInlierDistance;
+    const double off = best.dot(cross);
+    pair.inlier =
+        off * off * squaredScale(before, best, constraints_[i].per_px) < kInlierDistance * kInlierDistance;
     const Eigen::Vector3d across = pair.now.cross(best);
     const double square = across.squaredNorm();
     pair.inverse_depth = square > 1e-9 ? across.dot(cross) / square : 0.0;

@@ -32,10 +32,6 @@ constexpr float kMinLead = 0.95F;
 /// looks like a few milliradians from image to image.
 constexpr float kAgreement = 0.015F;
 
-Eigen::Matrix3d rotationOf(const Eigen::Vector3f& vector) {
-  return so3Exp(vector.cast<double>()).toRotationMatrix();
-}
-
 }  // namespace
 
 double MotionPrediction::angle() const {
@@ -58,13 +54,17 @@ const char* MotionPrediction::sourceName() const {
 class MotionPrior::Implementation {
  public:
   explicit Implementation(const MotionPriorParameters& parameters) : parameters_(parameters) {
-    if (const auto given = givenImuTimeOffset(parameters)) {
-      given_offset_s_ = *given;
-    } else {
-      estimated_offset_.emplace();
-    }
+    setImuTimeOffset();
   }
 
+  void setParameters(const MotionPriorParameters& parameters) {
+    // What was not in use has not seen the last images.
+    if (parameters_.prior == "none") reset();
+    if (!parameters_.ego_motion) ego_motion_.reset();
+    const bool other_offset = parameters.imu_time_offset != parameters_.imu_time_offset;
+    parameters_ = parameters;
+    if (other_offset) setImuTimeOffset();
+  }
   void setCamera(std::shared_ptr<const CameraModel> camera) {
     if (camera == camera_) return;
     ego_motion_.setCamera(camera);
@@ -107,6 +107,12 @@ class MotionPrior::Implementation {
   double focal() const { return lens_ ? meanFocal(lens_->calibration()) : 1.0; }
 
  private:
+  void setImuTimeOffset() {
+    const std::optional<double> given = givenImuTimeOffset(parameters_);
+    given_offset_s_ = given.value_or(0.0);
+    estimated_offset_.reset();
+    if (!given) estimated_offset_.emplace();
+  }
   std::int64_t imuStamp(std::int64_t image_stamp_ns) const {
     return image_stamp_ns + std::llround(1e9 * imuTimeOffset());
   }
@@ -225,11 +231,11 @@ void MotionPrior::Implementation::chooseRotation(const ImagePyramid& pyramid, co
       measured ? fuse(aligner, pyramid, *measured, seen, max_cost, interval_s) : std::nullopt;
   if (fused && fused->allFinite() && aligner.cost(pyramid, *fused) < max_cost) {
     prediction.source = MotionPrediction::Source::kImu;
-    prediction.rotation = rotationOf(*fused);
+    prediction.rotation = so3Exp(fused->cast<double>()).toRotationMatrix();
   } else if ((!measured || parameters_.prior == "auto") && seen.allFinite() &&
              aligner.cost(pyramid, seen) < max_cost) {
     prediction.source = MotionPrediction::Source::kImage;
-    prediction.rotation = rotationOf(seen);
+    prediction.rotation = so3Exp(seen.cast<double>()).toRotationMatrix();
   }
 }
 
@@ -238,19 +244,19 @@ MotionPrediction MotionPrior::Implementation::predict(const ImagePyramid& pyrami
   if (parameters_.prior == "none") return prediction;
   prepareCamera(pyramid);
   const float interval_s = 1e-9F * static_cast<float>(stamp_ns - last_stamp_ns_.value_or(stamp_ns));
-  const bool can_align = fine_.hasTemplate() || coarse_.hasTemplate();
   const std::optional<Eigen::Vector3f> measured = integrateGyro(stamp_ns);
   const std::optional<Eigen::Isometry3d> odometry = interpolateOdometry(stamp_ns);
   const bool trusted = measured && estimatesEgoMotion() && gyro_bias_.isTrusted();
   std::optional<Eigen::Vector3f> seen;
-  if (can_align && !odometry && (!trusted || estimated_offset_)) seen = alignImages(pyramid);
+  const bool needs_images = !odometry && (!trusted || estimated_offset_);
+  if (needs_images && (fine_.hasTemplate() || coarse_.hasTemplate())) seen = alignImages(pyramid);
   if (odometry) {
     prediction.source = MotionPrediction::Source::kOdometry;
     prediction.rotation = odometry->linear();
   } else if (trusted) {
     // Images align by what moves with the most of them, and large parallax leads them astray.
     prediction.source = MotionPrediction::Source::kImu;
-    prediction.rotation = rotationOf(withoutBias(*measured, interval_s));
+    prediction.rotation = so3Exp(withoutBias(*measured, interval_s).cast<double>()).toRotationMatrix();
   } else if (seen) {
     chooseRotation(pyramid, *seen, measured, interval_s, prediction);
   }
@@ -259,8 +265,8 @@ MotionPrediction MotionPrior::Implementation::predict(const ImagePyramid& pyrami
   }
   if (estimatesEgoMotion()) addEgoMotion(pyramid, measured, seen, odometry, interval_s, prediction);
   last_rotation_ = so3Log(prediction.rotation).cast<float>();
-  coarse_.extractTemplate(pyramid);
-  fine_.extractTemplate(pyramid);
+  coarse_.setFirst(pyramid);
+  fine_.setFirst(pyramid);
   // An estimate may still move back.
   gyro_.forgetBefore(imuStamp(stamp_ns) - (estimated_offset_ ? GyroIntegrator::kMaxGapNs : 0));
   odometry_.forgetBefore(stamp_ns);
@@ -273,11 +279,11 @@ void MotionPrior::Implementation::addEgoMotion(const ImagePyramid& pyramid,
                                                const std::optional<Eigen::Vector3f>& seen,
                                                const std::optional<Eigen::Isometry3d>& odometry,
                                                float interval_s, MotionPrediction& prediction) {
-  std::optional<EgoMotionTracker::Turn> turn;
+  std::optional<EgoMotionTracker::MeasuredRotation> turn;
   if (measured) {
-    turn = EgoMotionTracker::Turn{rotationOf(withoutBias(*measured, interval_s)),
-                                  static_cast<double>(interval_s * gyro_bias_.deviation()),
-                                  gyro_bias_.isTrusted()};
+    turn = EgoMotionTracker::MeasuredRotation{
+        so3Exp(withoutBias(*measured, interval_s).cast<double>()).toRotationMatrix(),
+        static_cast<double>(interval_s * gyro_bias_.deviation()), gyro_bias_.isTrusted()};
   }
   std::optional<Eigen::Vector3d> step;
   if (odometry) step = odometry->translation();
@@ -322,6 +328,9 @@ MotionPrior::~MotionPrior() = default;
 MotionPrior::MotionPrior(MotionPrior&&) noexcept = default;
 MotionPrior& MotionPrior::operator=(MotionPrior&&) noexcept = default;
 
+void MotionPrior::setParameters(const MotionPriorParameters& parameters) {
+  implementation_->setParameters(parameters);
+}
 void MotionPrior::setCamera(std::shared_ptr<const CameraModel> camera) {
   implementation_->setCamera(std::move(camera));
 }

@@ -44,7 +44,7 @@ void RotationAligner::setCamera(const CameraModel& camera, const cv::Size& size)
   };
   width_ = halved(size.width);
   height_ = halved(size.height);
-  points_.clear();
+  clearTemplate();
   jacobians_.assign(static_cast<std::size_t>(width_ * height_), Eigen::Matrix<float, 2, 3>::Zero());
   magnitudes_.assign(jacobians_.size(), 0);
   constexpr double kSmallAngle = 1e-3;  // [rad]
@@ -69,12 +69,21 @@ void RotationAligner::setCamera(const CameraModel& camera, const cv::Size& size)
   }
 }
 
-bool RotationAligner::extractTemplate(const ImagePyramid& first) {
-  points_.clear();
-  if (first.levels() <= level_) return false;
-  const cv::Mat& image = first.level(level_);
-  if (image.cols != width_ || image.rows != height_) return false;
+void RotationAligner::setFirst(const ImagePyramid& first) {
+  clearTemplate();
+  if (first.levels() <= level_ || first.level(level_).size() != cv::Size(width_, height_)) return;
+  first.level(level_).copyTo(first_);
+  is_extracted_ = false;
+}
 
+bool RotationAligner::hasTemplate() {
+  if (!is_extracted_) extractTemplate();
+  return !points_.empty();
+}
+
+void RotationAligner::extractTemplate() {
+  is_extracted_ = true;
+  const cv::Mat& image = first_;
   // The pixels with the steepest gradients: a threshold from the histogram of their magnitudes.
   for (int y = 1; y + 1 < height_; ++y) {
     const std::uint8_t* above = image.ptr<std::uint8_t>(y - 1);
@@ -114,7 +123,7 @@ bool RotationAligner::extractTemplate(const ImagePyramid& first) {
   }
   if (points_.size() < kMinPoints) {
     points_.clear();
-    return false;
+    return;
   }
   // Take from the gradients what a change of gain and offset would explain.
   const float count = static_cast<float>(points_.size());
@@ -135,7 +144,6 @@ bool RotationAligner::extractTemplate(const ImagePyramid& first) {
   // A direction that the texture does not show stays where it starts.
   hessian.diagonal().array() += 1e-4F * hessian.trace() + 1.0F;
   inverse_hessian_ = hessian.inverse();
-  return true;
 }
 
 RotationAligner::Brightness RotationAligner::sample(const cv::Mat& second, const Eigen::Vector3f& rotation) {

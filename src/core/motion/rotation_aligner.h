@@ -23,8 +23,15 @@ class RotationAligner {
   /// Lens and size of the original image [px]; forgets the template.
   void setCamera(const CameraModel& camera, const cv::Size& size);
 
-  /// Takes the first image. False when it has too little texture or another size than the camera.
-  bool extractTemplate(const ImagePyramid& first);
+  /// Takes the first image. Its template is made when it is asked for: a trusted gyroscope needs none.
+  void setFirst(const ImagePyramid& first);
+  /// False when the first image has too little texture or another size than the camera; then there is nothing
+  /// to align.
+  bool hasTemplate();
+  void clearTemplate() {
+    points_.clear();
+    is_extracted_ = true;
+  }
 
   /// Mean absolute gray difference between the template and `second` rotated back by `rotation`, large ones
   /// cut off.
@@ -32,9 +39,6 @@ class RotationAligner {
 
   /// The rotation near `start` at which the images fit best.
   Eigen::Vector3f align(const ImagePyramid& second, const Eigen::Vector3f& start, int max_iterations);
-
-  bool hasTemplate() const { return !points_.empty(); }
-  void clearTemplate() { points_.clear(); }
 
  private:
   struct Point {
@@ -48,12 +52,17 @@ class RotationAligner {
     float inverse_gain, offset;  ///< template = inverse_gain * (second - offset)
   };
 
+  /// points_ of first_.
+  void extractTemplate();
+
   /// Gray values of `second` at the points moved by `rotation`, and its change of brightness.
   Brightness sample(const cv::Mat& second, const Eigen::Vector3f& rotation);
 
   int level_;
   int width_{0}, height_{0};
   std::vector<Eigen::Matrix<float, 2, 3>> jacobians_;  ///< of every pixel of the level
+  cv::Mat first_;                                      ///< level of the first image
+  bool is_extracted_{true};                            ///< points_ are those of first_
   std::vector<Point> points_;
   std::vector<std::uint16_t> magnitudes_;  ///< of the gradient, of every pixel; 0 at the border [gray / 2 px]
   std::vector<float> samples_;

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 namespace tet_line_tracker {
@@ -167,6 +168,15 @@ std::vector<std::string> ParameterTable::check() const {
     if (!good) broken.push_back(brokenRule(entry, valueText(entry)));
   }
   return broken;
+}
+
+ParameterTable::Value ParameterTable::value(const Entry& entry) {
+  return std::visit([](const auto* field) { return Value(*field); }, entry.field);
+}
+
+void ParameterTable::assign(const Entry& entry, const Value& value) {
+  std::visit([&value](auto* field) { *field = std::get<std::decay_t<decltype(*field)>>(value); },
+             entry.field);
 }
 
 std::string ParameterTable::valueText(const Entry& entry) {

@@ -8,19 +8,30 @@ namespace {
 
 constexpr double kMaxImuTimeOffset = 0.5;  // [s]
 
+// The templates of the tracks depend on these.
+constexpr auto kNewEpoch = ParameterTable::Change::kNewEpoch;
+
 ParameterTable tableOf(EndpointTrackerParameters& p) {
   ParameterTable table;
-  table.add("pyramid_levels", p.pyramid_levels, 1, 8, "", "Images in the pyramid, the original included");
-  table.add("window_px", p.window_px, 3, 21, "px", "Side of the square patch around an endpoint").odd = true;
+  table.add("pyramid_levels", p.pyramid_levels, 1, 8, "", "Images in the pyramid, the original included")
+      .change = kNewEpoch;
+  ParameterTable::Entry& window =
+      table.add("window_px", p.window_px, 3, 21, "px", "Side of the square patch around an endpoint");
+  window.odd = true;
+  window.change = kNewEpoch;
   table.add("max_iterations", p.max_iterations, 1, 100, "", "Iterations per pyramid level");
   table.add("max_residual", p.max_residual, 0.001, 1.0, "",
             "`paper`: mean absolute gray difference on [0, 1] above which a line is lost");
   table.add("min_step", p.min_step, 0.0, 1.0, "px", "`paper`: iterations end below this step");
-  table.add("finest_level", p.finest_level, 0, 3, "",
-            "Pyramid level at which the flow ends; the re-fit does the rest");
-  table.add("patch_spacing", p.patch_spacing, 3.0, 100.0, "px", "Distance of the patches along the line");
-  table.add("max_patches", p.max_patches, 2, 16, "", "Patches per line and pyramid level");
-  table.add("gain_and_offset", p.gain_and_offset, "Match mean and spread of each patch: for changing light");
+  table
+      .add("finest_level", p.finest_level, 0, 3, "",
+           "Pyramid level at which the flow ends; the re-fit does the rest")
+      .change = kNewEpoch;
+  table.add("patch_spacing", p.patch_spacing, 3.0, 100.0, "px", "Distance of the patches along the line")
+      .change = kNewEpoch;
+  table.add("max_patches", p.max_patches, 2, 16, "", "Patches per line and pyramid level").change = kNewEpoch;
+  table.add("gain_and_offset", p.gain_and_offset, "Match mean and spread of each patch: for changing light")
+      .change = kNewEpoch;
   table.add("robust_patches", p.robust_patches, "Less weight to patches that do not match");
   table.add("max_joint_residual", p.max_joint_residual, 0.001, 1.0, "",
             "Mean absolute gray difference on [0, 1] above which a line is lost");
@@ -64,7 +75,8 @@ ParameterTable tableOf(PlausibilityParameters& p) {
 
 ParameterTable tableOf(LineRefinerParameters& p) {
   ParameterTable table;
-  table.add("refine", p.refine, "Re-fit each line to the edge under it; `false`: the flow ends at level 0");
+  table.add("refine", p.refine, "Re-fit each line to the edge under it; `false`: the flow ends at level 0")
+      .change = kNewEpoch;
   table.add("search_px", p.search_px, 1.0, 6.0, "px", "The edge is searched this far on both sides");
   table.add("min_support", p.min_support, 0.0, 1.0, "", "Share of a line that must lie on its edge");
   return table;
@@ -93,8 +105,10 @@ ParameterTable tableOf(DetectionParameters& p) {
 
 ParameterTable tableOf(LineTrackerParameters& p) {
   ParameterTable table;
-  table.add("method", p.method, {"joint", "paper"},
-            "How lines are followed; `paper`: Algorithm 1 as published");
+  table
+      .add("method", p.method, {"joint", "paper"},
+           "How lines are followed; `paper`: Algorithm 1 as published")
+      .change = kNewEpoch;
   table.add("threads", p.threads, 1, 64, "", "Threads that follow lines; the result does not depend on it");
   table.append(tableOf(p.flow));
   table.append(tableOf(p.motion));
@@ -144,6 +158,21 @@ std::vector<std::string> check(const LineTrackerParameters& parameters) {
                      ", needs at most max_lines, which is " + std::to_string(parameters.detection.max_lines));
   }
   return broken;
+}
+
+bool needsNewEpoch(const LineTrackerParameters& before, const LineTrackerParameters& after) {
+  LineTrackerParameters old_values = before;
+  LineTrackerParameters new_values = after;
+  const ParameterTable old_table = tableOf(old_values);
+  const ParameterTable new_table = tableOf(new_values);
+  for (std::size_t i = 0; i < old_table.entries().size(); ++i) {
+    const ParameterTable::Entry& entry = old_table.entries()[i];
+    if (entry.change != ParameterTable::Change::kBetweenImages &&
+        ParameterTable::value(entry) != ParameterTable::value(new_table.entries()[i])) {
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace tet_line_tracker

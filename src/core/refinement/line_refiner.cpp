@@ -24,6 +24,13 @@ constexpr float kSigmaFloor = 0.009F;   // what sampling and rounding leave on a
 constexpr float kCorrelation =
     1.7F;  // variance of the fit over that of independent samples: neighbours err alike
 
+// The steep part of a blurred edge is not symmetrical: light falls off to one side, the gray values are a
+// curved function of it, or another edge is near. Where its middle lies is then off by a share of its width,
+// alike along the line.
+constexpr float kSharpWidth = 2.3F;     // narrower edges are symmetrical enough [px]
+constexpr float kBiasPerWidth = 0.25F;  // deviation of the place per width beyond
+constexpr float kBiasTilt = 0.25F;      // variance of the tilt over that of the offset
+
 /// What profiles across the line found, from start to end; room for whole vectors.
 struct Samples {
   static constexpr std::size_t kCapacity = kMaxSamples + kernels::kLanes;
@@ -31,6 +38,7 @@ struct Samples {
   std::array<float, kCapacity> offsets;  ///< of the edge from the line, along the normal [px]
   std::array<float, kCapacity>
       slopes;  ///< of the edge, positive when of the right polarity [gray / px]; 0: none found
+  std::array<float, kCapacity> widths;  ///< of the edge across it [px]
   int count{0};
 };
 
@@ -99,9 +107,10 @@ class ProfileSampler {
     for (std::size_t i = 0; i < kept; i += kernels::kLanes) find(i, kept, samples);
     for (std::size_t i = 0; i < kept; ++i) {
       samples.offsets[i] = (samples.offsets[i] - centres_[i]) * normal_share_;
+      samples.widths[i] *= std::abs(normal_share_);
     }
     for (std::size_t i = kept; i < kept + kernels::kLanes; ++i) {
-      samples.places[i] = samples.offsets[i] = 0.0F;
+      samples.places[i] = samples.offsets[i] = samples.widths[i] = 0.0F;
       samples.slopes[i] = -1.0F;
     }
   }
@@ -161,7 +170,8 @@ class ProfileSampler {
                                   : gray_.ptr<std::uint8_t>(mains_[i]) + begins_[i];
       batch_.centre[lane] = centres_[i];
     }
-    kernels::active().findEdges(batch_, samples.offsets.data() + first, samples.slopes.data() + first);
+    kernels::active().findEdges(batch_, samples.offsets.data() + first, samples.slopes.data() + first,
+                                samples.widths.data() + first);
   }
 
   const cv::Mat& gray_;
@@ -262,12 +272,12 @@ EdgeFit LineRefiner::fit(const cv::Mat& gray, const LineCurve& curve, float cont
   if (samples.count < kMinSamples) return result;
 
   const kernels::EdgeSamples found{samples.places.data(), samples.offsets.data(), samples.slopes.data(),
-                                   samples.count};
+                                   samples.widths.data(), samples.count};
   const WeightedFit weighted = fitOffsets(found, min_slope);
   const kernels::OffsetFit& fit = weighted.line;
-  std::array<float, 3> sums;
+  std::array<float, 4> sums;
   kernels::active().sumSupport(found, fit, kOnEdge, min_slope, sums.data());
-  const auto [supported, slopes, squares] = sums;
+  const auto [supported, slopes, squares, widths] = sums;
   if (supported < 4.0F) return result;
   result.support = supported / static_cast<float>(samples.count);
   if (result.support < static_cast<float>(parameters_.min_support)) return result;
@@ -275,10 +285,12 @@ EdgeFit LineRefiner::fit(const cv::Mat& gray, const LineCurve& curve, float cont
   result.contrast = std::copysign(slopes / supported, contrast);
   const float variance = kCorrelation * squares / (supported - 2.0F);
   constexpr float kFloor = kSigmaFloor * kSigmaFloor;
-  result.sigma_px = std::sqrt(kFloor + variance / supported);
+  const float bias = kBiasPerWidth * std::max(0.0F, widths / supported - kSharpWidth);
+  const float blur = bias * bias;
+  result.sigma_px = std::sqrt(kFloor + blur + variance / supported);
   // Of the ends, at -1 and 1. The floor is of offset and tilt alike: a sampling error differs along the line.
-  const float offsets = variance * weighted.offset_offset + kFloor;
-  const float tilts = variance * weighted.tilt_tilt + kFloor;
+  const float offsets = variance * weighted.offset_offset + kFloor + blur;
+  const float tilts = variance * weighted.tilt_tilt + kFloor + kBiasTilt * blur;
   const float both = 2.0F * variance * weighted.offset_tilt;
   result.covariance_px = {offsets - both + tilts, offsets - tilts, offsets + both + tilts};
   const Eigen::Vector2f normal = line.normal();

@@ -1,6 +1,14 @@
 #include "tracking/detection_policy.h"
 
 namespace tet_line_tracker {
+
+void DetectionState::setDetected(std::size_t line_count, float covered) {
+  images_since_detection = 0;
+  lines_after_detection = line_count;
+  coverage = covered;
+  coverage_after_detection = covered;
+}
+
 namespace {
 
 class MinLinesPolicy : public DetectionPolicy {

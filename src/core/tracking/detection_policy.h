@@ -16,6 +16,9 @@ struct DetectionState {
   std::size_t lines_after_detection{0};   ///< after the last detection
   float coverage{0.0F};                   ///< share of the image that the lines cover, 0..1
   float coverage_after_detection{0.0F};   ///< after the last detection
+
+  /// The detector has run, and this is what there is now.
+  void setDetected(std::size_t line_count, float covered);
 };
 
 /// When to detect new lines. Const and without state.

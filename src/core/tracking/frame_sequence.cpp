@@ -25,6 +25,7 @@ StreamVerdict FrameSequence::begin(const cv::Mat& gray, std::int64_t stamp_ns) {
   frame_.width = gray.cols;
   frame_.height = gray.rows;
   frame_.detected = false;
+  frame_.lost.clear();
   FrameStatistics& statistics = frame_.statistics;
   statistics = FrameStatistics{};
   statistics.tracks_before = static_cast<std::uint32_t>(frame_.lines.size());

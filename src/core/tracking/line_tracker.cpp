@@ -1,6 +1,5 @@
 #include "tet_line_tracker/tracking/line_tracker.h"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -28,10 +27,14 @@ class LineTracker::Implementation {
         frames_(parameters.stream),
         prior_(method_.motion),
         area_(parameters.detection.border),
-        workers_(parameters.threads) {}
+        workers_(std::make_unique<WorkerPool>(parameters.threads)) {}
 
   FrameResult process(const cv::Mat& gray, std::int64_t stamp_ns);
-  std::size_t reset();
+  std::size_t reset() {
+    tracks_.clear();
+    return frames_.reset();
+  }
+  bool setParameters(const LineTrackerParameters& parameters);
   void setCamera(std::shared_ptr<const CameraModel> camera);
   void setMask(const cv::Mat& mask) { area_.setMask(mask); }
   bool usesImu() const { return method_.motion.prior == "imu" || method_.motion.prior == "auto"; }
@@ -43,7 +46,6 @@ class LineTracker::Implementation {
 
  private:
   void startEpoch();
-  int pyramidLevels() const;
   void follow(const MotionPrediction& motion);
   void refine();
   void check();
@@ -59,9 +61,10 @@ class LineTracker::Implementation {
   VisibleArea area_;
 
   ImagePyramid pyramid_;
+  ImagePyramid pyramid_before_;  ///< of the image before; its level 0 is gone
   TrackTable tracks_;
   DetectionState detection_;
-  WorkerPool workers_;
+  std::unique_ptr<WorkerPool> workers_;
 };
 
 FrameResult LineTracker::Implementation::process(const cv::Mat& gray, std::int64_t stamp_ns) {
@@ -74,7 +77,8 @@ FrameResult LineTracker::Implementation::process(const cv::Mat& gray, std::int64
   FrameStatistics& statistics = frame.statistics;
   area_.setImageSize(gray.size());
 
-  pyramid_.build(gray, pyramidLevels());
+  std::swap(pyramid_, pyramid_before_);
+  pyramid_.build(gray, method_.pyramid_levels);
   statistics.pyramid_ms = stage.lap();
   const MotionPrediction motion = prior_.predict(pyramid_, stamp_ns);
   statistics.prior = motion.sourceName();
@@ -110,9 +114,21 @@ void LineTracker::Implementation::setCamera(std::shared_ptr<const CameraModel> c
   camera_ = std::move(camera);
 }
 
-std::size_t LineTracker::Implementation::reset() {
-  tracks_.clear();
-  return frames_.reset();
+bool LineTracker::Implementation::setParameters(const LineTrackerParameters& parameters) {
+  // What may throw comes before what changes.
+  TrackingMethod method = makeTrackingMethod(parameters);
+  std::unique_ptr<WorkerPool> workers;
+  if (parameters.threads != parameters_.threads) workers = std::make_unique<WorkerPool>(parameters.threads);
+  const bool new_epoch = needsNewEpoch(parameters_, parameters);
+  if (new_epoch) reset();
+  parameters_ = parameters;
+  method_ = std::move(method);
+  frames_.setParameters(parameters.stream);
+  prior_.setParameters(method_.motion);
+  area_.setBorder(parameters.detection.border);
+  if (workers) workers_ = std::move(workers);
+  if (!method_.motion.predict_parallax) tracks_.forgetParallax();
+  return new_epoch;
 }
 
 void LineTracker::Implementation::startEpoch() {
@@ -121,18 +137,13 @@ void LineTracker::Implementation::startEpoch() {
   detection_.images_in_epoch = 0;
 }
 
-int LineTracker::Implementation::pyramidLevels() const {
-  const int for_prior = method_.motion.prior == "none" ? 1 : MotionPrior::kPyramidLevels;
-  return std::max(parameters_.flow.pyramid_levels, for_prior);
-}
-
 void LineTracker::Implementation::follow(const MotionPrediction& motion) {
-  const TrackFollower follower(method_, prior_, area_);
+  const TrackFollower follower(method_, prior_, area_, pyramid_before_);
   const auto followOne = [&](std::size_t i) {
     follower.follow(motion, pyramid_, tracks_.line(i), tracks_.state(i));
   };
   // By reference: the function is too large to be copied without heap.
-  workers_.run(tracks_.size(), std::cref(followOne));
+  workers_->run(tracks_.size(), std::cref(followOne));
 }
 
 void LineTracker::Implementation::refine() {
@@ -144,13 +155,13 @@ void LineTracker::Implementation::refine() {
       refiner.refine(pyramid_.level(0), number, tracks_.line(i), tracks_.state(i));
     }
   };
-  workers_.run(tracks_.size(), std::cref(refineOne));
+  workers_->run(tracks_.size(), std::cref(refineOne));
 }
 
 void LineTracker::Implementation::check() {
-  FrameStatistics& statistics = frames_.frame().statistics;
-  for (const auto& check : method_.checks) check->apply(area_, tracks_, statistics);
-  tracks_.removeLost(statistics);
+  LineFrame& frame = frames_.frame();
+  for (const auto& check : method_.checks) check->apply(area_, tracks_, frame.statistics);
+  tracks_.removeLost(frame);
 }
 
 void LineTracker::Implementation::detect(const cv::Mat& gray) {
@@ -162,10 +173,7 @@ void LineTracker::Implementation::detect(const cv::Mat& gray) {
   if (method_.detection_policy->isDue(detection_)) {
     method_.initializer->addTracks(gray, area_, tracks_, frame.statistics);
     frame.detected = true;
-    detection_.images_since_detection = 0;
-    detection_.lines_after_detection = tracks_.size();
-    detection_.coverage = tracks_.coverage(gray.size());
-    detection_.coverage_after_detection = detection_.coverage;
+    detection_.setDetected(tracks_.size(), tracks_.coverage(gray.size()));
   }
   frame.statistics.coverage = detection_.coverage;
 }
@@ -177,12 +185,9 @@ void LineTracker::Implementation::markCuts() {
 }
 
 void LineTracker::Implementation::extractTemplates() {
-  workers_.run(tracks_.size(), [this](std::size_t i) {
-    TrackState& state = tracks_.state(i);
-    if (!state.template_due) return;
-    state.reference = tracks_.line(i).segment;
-    method_.flow->extractTemplate(pyramid_, {state.reference, state.bend}, state.patches);
-  });
+  const TrackFollower follower(method_, prior_, area_, pyramid_before_);
+  const auto renew = [&](auto i) { follower.renewTemplate(pyramid_, tracks_.line(i), tracks_.state(i)); };
+  workers_->run(tracks_.size(), std::cref(renew));
 }
 
 LineTracker::LineTracker(const LineTrackerParameters& parameters)
@@ -220,6 +225,12 @@ void LineTracker::addOdometry(std::int64_t stamp_ns, const Eigen::Isometry3d& od
 }
 std::int64_t LineTracker::imuStamp(std::int64_t image_stamp_ns) const {
   return image_stamp_ns + std::llround(1e9 * implementation_->prior().imuTimeOffset());
+}
+Eigen::Vector3d LineTracker::gyroBias() const {
+  return implementation_->prior().gyroBias();
+}
+bool LineTracker::setParameters(const LineTrackerParameters& parameters) {
+  return implementation_->setParameters(parameters);
 }
 std::size_t LineTracker::reset() {
   return implementation_->reset();

@@ -4,8 +4,13 @@
 
 namespace tet_line_tracker {
 
-StreamGate::StreamGate(const StreamParameters& parameters)
-    : max_gap_ns_(static_cast<std::int64_t>(std::llround(parameters.max_gap * 1e9))) {}
+StreamGate::StreamGate(const StreamParameters& parameters) {
+  setParameters(parameters);
+}
+
+void StreamGate::setParameters(const StreamParameters& parameters) {
+  max_gap_ns_ = static_cast<std::int64_t>(std::llround(parameters.max_gap * 1e9));
+}
 
 StreamVerdict StreamGate::admit(std::int64_t stamp_ns, int width, int height) {
   if (stamp_ns == 0) {

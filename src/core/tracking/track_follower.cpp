@@ -61,6 +61,8 @@ LineDepth TrackFollower::expectDepth(const MotionPrediction& motion, const Track
 
 bool TrackFollower::isSure(const MotionPrediction& motion, const LineDepth& depth,
                            const TrackState& state) const {
+  if (!motion.translates()) return motion.confirmed;
+  if (!depth.known) return false;
   const Eigen::Vector2d across = sensitivityOf(state.step, depth.inverse, motion.translation).across;
   const Eigen::Vector2d deviations = depth.variance.cwiseSqrt().cwiseProduct(across.cwiseAbs());
   return prior_.focal() * deviations.maxCoeff() < kSurePx;
@@ -112,6 +114,18 @@ void TrackFollower::follow(const MotionPrediction& motion, const ImagePyramid& p
   ++line.age;
 }
 
+void TrackFollower::renewTemplate(const ImagePyramid& pyramid, const TrackedLine& line,
+                                  TrackState& state) const {
+  if (!state.template_due) {
+    // The image it is of is gone with the next one.
+    method_.flow->extendTemplate(pyramid_before_, state.patches);
+    return;
+  }
+  state.reference = line.segment;
+  method_.flow->extractTemplate(pyramid, {state.reference, state.bend}, state.patches,
+                                EndpointTracker::Reach::kNear);
+}
+
 EndpointFlow TrackFollower::findLine(const MotionPrediction& motion, const ImagePyramid& pyramid,
                                      const TrackedLine& line, TrackState& state) const {
   state.step.start_before = motion.rotation * line.start_normalized.homogeneous();
@@ -119,15 +133,19 @@ EndpointFlow TrackFollower::findLine(const MotionPrediction& motion, const Image
   state.rotated = prior_.apply(motion, line.segment, line.start_normalized, line.end_normalized);
   state.expected_depth = expectDepth(motion, line, state);
   const LineBend bend = bendOf(line, state);
-  if (!state.expected_depth.known) {
-    state.predicted = {state.rotated.start + state.start_parallax, state.rotated.end + state.end_parallax};
-    return method_.flow->track(state.patches, pyramid, {state.predicted, bend});
+  state.predicted =
+      state.expected_depth.known
+          ? prior_.apply(motion, line.segment, line.start_normalized, line.end_normalized,
+                         state.expected_depth.inverse)
+          : LineSegment{state.rotated.start + state.start_parallax, state.rotated.end + state.end_parallax};
+  const LineCurve expected(state.predicted, bend);
+  if (isSure(motion, state.expected_depth, state)) {
+    EndpointFlow near = method_.flow->track(state.patches, pyramid, expected, EndpointTracker::Reach::kNear);
+    if (near.status == EndpointFlow::Status::kTracked) return near;
   }
-  state.predicted = prior_.apply(motion, line.segment, line.start_normalized, line.end_normalized,
-                                 state.expected_depth.inverse);
-  EndpointFlow best = method_.flow->track(state.patches, pyramid, {state.predicted, bend});
-  const bool tracked = best.status == EndpointFlow::Status::kTracked;
-  if (tracked && isSure(motion, state.expected_depth, state)) return best;
+  method_.flow->extendTemplate(pyramid_before_, state.patches);
+  EndpointFlow best = method_.flow->track(state.patches, pyramid, expected);
+  if (!state.expected_depth.known) return best;
   LinePath path = pathOf(motion, line, state.expected_depth);
   path.bend = bend;
   std::array<LineSegment, EndpointTracker::kMaxStarts> starts;

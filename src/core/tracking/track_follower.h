@@ -15,12 +15,17 @@ namespace tet_line_tracker {
 /// Const: tracks are followed in parallel.
 class TrackFollower {
  public:
-  TrackFollower(const TrackingMethod& method, const MotionPrior& prior, const VisibleArea& area)
-      : method_(method), prior_(prior), area_(area) {}
+  /// `pyramid_before`: of the image before; its level 0 is not read.
+  TrackFollower(const TrackingMethod& method, const MotionPrior& prior, const VisibleArea& area,
+                const ImagePyramid& pyramid_before)
+      : method_(method), prior_(prior), area_(area), pyramid_before_(pyramid_before) {}
 
   /// Moves `line` and sets what `state` knows of the step, or why the track is lost.
   void follow(const MotionPrediction& motion, const ImagePyramid& pyramid, TrackedLine& line,
               TrackState& state) const;
+  /// Takes the patches that follow() finds the line by in the next image, where those it has are no longer
+  /// good.
+  void renewTemplate(const ImagePyramid& pyramid, const TrackedLine& line, TrackState& state) const;
 
  private:
   EndpointFlow findLine(const MotionPrediction& motion, const ImagePyramid& pyramid, const TrackedLine& line,
@@ -34,6 +39,7 @@ class TrackFollower {
   const TrackingMethod& method_;
   const MotionPrior& prior_;
   const VisibleArea& area_;
+  const ImagePyramid& pyramid_before_;
 };
 
 }  // namespace tet_line_tracker

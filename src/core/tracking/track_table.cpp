@@ -53,11 +53,15 @@ void TrackTable::add(const EdgeFit& edge, const LineBend& bend) {
   state.loss = LossReason::kCount;
 }
 
-void TrackTable::removeLost(FrameStatistics& statistics) {
+void TrackTable::removeLost(LineFrame& frame) {
+  FrameStatistics& statistics = frame.statistics;
+  // All may be lost at once: that should cost no memory then.
+  frame.lost.reserve(lines_.capacity());
   std::size_t kept = 0;
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     if (states_[i].lost()) {
       ++statistics.lostFor(states_[i].loss);
+      frame.lost.push_back({lines_[i].id, states_[i].loss});
       continue;
     }
     if (kept != i) {
@@ -97,6 +101,10 @@ void TrackTable::predictParallax() {
     state.start_parallax = -kDecay * found.distance(state.rotated.start) * normal;
     state.end_parallax = -kDecay * found.distance(state.rotated.end) * normal;
   }
+}
+
+void TrackTable::forgetParallax() {
+  for (TrackState& state : states_) state.start_parallax = state.end_parallax = Eigen::Vector2f::Zero();
 }
 
 float TrackTable::coverage(const cv::Size& size) const {

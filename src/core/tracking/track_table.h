@@ -61,8 +61,8 @@ class TrackTable {
   /// Starts a track with the next id on an edge; `bend`: of its line, by the lens.
   void add(const EdgeFit& edge, const LineBend& bend);
 
-  /// Removes the lost tracks and counts them by reason; the others keep their order.
-  void removeLost(FrameStatistics& statistics);
+  /// Moves the lost tracks to the end of `frame.lost` and counts them by reason; the others keep their order.
+  void removeLost(LineFrame& frame);
 
   /// Learns from the step how deep the lines lie. `focal`: [px].
   void measureDepths(const MotionPrediction& motion, double focal);
@@ -70,6 +70,8 @@ class TrackTable {
   /// The movement across a line that the rotation of the camera does not explain will go on in the next
   /// image; along it the flow knows little.
   void predictParallax();
+  /// No such movement is predicted.
+  void forgetParallax();
 
   /// Share of the cells of an 8x6 grid over an image of this size [px] that lines cross, 0..1.
   float coverage(const cv::Size& size) const;

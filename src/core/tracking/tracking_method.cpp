@@ -1,5 +1,6 @@
 #include "tracking/tracking_method.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -84,7 +85,11 @@ TrackingMethod makeJointMethod(const LineTrackerParameters& p) {
 
 TrackingMethod makeTrackingMethod(const LineTrackerParameters& parameters) {
   checked(parameters);
-  return parameters.method == "paper" ? makePaperMethod(parameters) : makeJointMethod(parameters);
+  TrackingMethod method =
+      parameters.method == "paper" ? makePaperMethod(parameters) : makeJointMethod(parameters);
+  const int for_prior = method.motion.prior == "none" ? 1 : MotionPrior::kPyramidLevels;
+  method.pyramid_levels = std::max(parameters.flow.pyramid_levels, for_prior);
+  return method;
 }
 
 }  // namespace tet_line_tracker

@@ -18,6 +18,7 @@ namespace tet_line_tracker {
 
 /// The parts of a tracking method. Whoever uses them does not know which method it is.
 struct TrackingMethod {
+  int pyramid_levels{1};  ///< that the parts want to see
   MotionPriorParameters motion;
   std::unique_ptr<EndpointTracker> flow;
   float dead_band_px{0.0F};  ///< ends stay in place until they have moved this far

@@ -12,6 +12,12 @@ void VisibleArea::setCamera(std::shared_ptr<const CameraModel> camera) {
   camera_ = std::move(camera);
 }
 
+void VisibleArea::setBorder(double border) {
+  // The field of view is that inside the border.
+  if (static_cast<float>(border) != border_) field_of_view_.reset();
+  border_ = static_cast<float>(border);
+}
+
 void VisibleArea::setMask(const cv::Mat& mask) {
   if (!mask.empty() && mask.type() != CV_8UC1) {
     throw std::invalid_argument("mask is of OpenCV type " + std::to_string(mask.type()) +

@@ -21,6 +21,8 @@ class VisibleArea {
   /// `border`: margin of the image without endpoints [px].
   explicit VisibleArea(double border) : border_(static_cast<float>(border)) {}
 
+  /// For the images to come [px].
+  void setBorder(double border);
   /// nullptr: everything can be normalised, or nothing needs to be.
   void setCamera(std::shared_ptr<const CameraModel> camera);
   /// Counts for images of its size; empty: no mask. Throws std::invalid_argument unless it is 8-bit gray.

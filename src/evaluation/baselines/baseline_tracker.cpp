@@ -1,13 +1,18 @@
 #include "baseline_tracker.h"
 
+#include <algorithm>
 #include <stdexcept>
+#include <utility>
+
+#include <opencv2/core/version.hpp>
 
 #include "../track_measures.h"
+#include "edge_drawing_detector.h"
 #include "lk_endpoints.h"
 #include "tracking/stopwatch.h"
 #ifdef TET_HAVE_LINE_DESCRIPTOR
-#include "lsd_lbd_knn.h"
-#include "lsd_remapped.h"
+#include "lbd_knn.h"
+#include "remapped_lbd_knn.h"
 #endif
 
 namespace tet_line_tracker {
@@ -37,25 +42,81 @@ TrackedLine BaselineTracker::newLine(const LineSegment& segment) {
   return line;
 }
 
-std::vector<std::string> baselineNames() {
-  return {
+namespace {
+
+/// A detector as a part of a baseline.
+struct Detector {
+  const char* opencv_name;
+  std::unique_ptr<LineDetector> (*make)();  ///< nullptr: it does not work with this OpenCV
+};
+
+std::unique_ptr<LineDetector> ifAvailable(const std::string& name) {
+  const std::vector<std::string> available = availableDetectors();
+  if (std::find(available.begin(), available.end(), name) == available.end()) return nullptr;
+  return makeLineDetector(name);
+}
+
+constexpr Detector kLsd{"cv::LineSegmentDetector", [] { return ifAvailable("lsd"); }};
+constexpr Detector kFld{"cv::ximgproc::FastLineDetector", [] { return ifAvailable("fld"); }};
+constexpr Detector kEdgeDrawing{"cv::ximgproc::EdgeDrawing", makeEdgeDrawingDetector};
+
+template <class Tracker>
+std::unique_ptr<BaselineTracker> make(const LineTrackerParameters& parameters,
+                                      std::unique_ptr<LineDetector> detector) {
+  return std::make_unique<Tracker>(parameters, std::move(detector));
+}
+using Make = decltype(&make<LkEndpoints>);
+
+// nullptr: this OpenCV has no LBD.
 #ifdef TET_HAVE_LINE_DESCRIPTOR
-      "lsd_lbd_knn", "lsd_remapped",
+constexpr Make kLbdKnn = make<LbdKnn>;
+constexpr Make kRemappedLbdKnn = make<RemappedLbdKnn>;
+#else
+constexpr Make kLbdKnn = nullptr;
+constexpr Make kRemappedLbdKnn = nullptr;
 #endif
-      "lk_endpoints"};
+
+struct Baseline {
+  const char* name;
+  Detector detector;
+  Make make;
+};
+
+constexpr Baseline kBaselines[] = {{"lsd_lbd_knn", kLsd, kLbdKnn},
+                                   {"ed_lbd_knn", kEdgeDrawing, kLbdKnn},
+                                   {"fld_lbd_knn", kFld, kLbdKnn},
+                                   {"lsd_remapped", kLsd, kRemappedLbdKnn},
+                                   {"lk_endpoints", kLsd, make<LkEndpoints>}};
+
+bool works(const Baseline& baseline) {
+  return baseline.make != nullptr && baseline.detector.make() != nullptr;
+}
+
+}  // namespace
+
+std::vector<std::string> baselineNames() {
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names;
+    for (const Baseline& baseline : kBaselines) {
+      if (works(baseline)) names.emplace_back(baseline.name);
+    }
+    return names;
+  }();
+  return kNames;
 }
 
 std::unique_ptr<BaselineTracker> makeBaselineTracker(const std::string& name,
                                                      const LineTrackerParameters& parameters) {
-#ifdef TET_HAVE_LINE_DESCRIPTOR
-  if (name == "lsd_lbd_knn") return std::make_unique<LsdLbdKnn>(parameters);
-  if (name == "lsd_remapped") return std::make_unique<LsdRemapped>(parameters);
-#endif
-  if (name == "lk_endpoints") return std::make_unique<LkEndpoints>(parameters);
+  std::string lack;
+  for (const Baseline& baseline : kBaselines) {
+    if (name != baseline.name) continue;
+    if (works(baseline)) return baseline.make(parameters, baseline.detector.make());
+    const char* const part = baseline.make == nullptr ? "cv::line_descriptor" : baseline.detector.opencv_name;
+    lack = std::string(" (OpenCV " CV_VERSION " came without ") + part + ")";
+  }
   std::string known = "tet";
   for (const std::string& other : baselineNames()) known += ", " + other;
-  throw std::invalid_argument("this build has no tracker '" + name + "'; it has " + known +
-                              (name.rfind("lsd_", 0) == 0 ? " (OpenCV came without line_descriptor)" : ""));
+  throw std::invalid_argument("this build has no tracker '" + name + "'; it has " + known + lack);
 }
 
 }  // namespace tet_line_tracker

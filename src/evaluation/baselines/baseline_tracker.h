@@ -13,9 +13,9 @@
 
 namespace tet_line_tracker {
 
-/// Another front end to compare LineTracker with. Of its parameters those of detection and stream are used;
-/// the detector is always LSD. In the statistics, flow_ms is the time of matching or flow, refine_ms that of
-/// describing lines, undistort_ms with that of remapping.
+/// Another front end to compare LineTracker with. Of its parameters those of detection and stream are used,
+/// but for `detector`: each baseline is made with its own. In the statistics, flow_ms is the time of matching
+/// or flow, refine_ms that of describing lines, undistort_ms with that of remapping.
 class BaselineTracker : public LineFrontEnd {
  public:
   void setCamera(std::shared_ptr<const CameraModel> camera) override { camera_ = std::move(camera); }
@@ -44,11 +44,11 @@ class BaselineTracker : public LineFrontEnd {
   std::uint64_t next_id_{0};
 };
 
-/// Names of the baselines that this build holds.
+/// Names of the baselines that work with this build and its OpenCV.
 std::vector<std::string> baselineNames();
 
-/// Baseline by name. Throws std::invalid_argument for an unknown one, or when this OpenCV lacks a part that
-/// it needs.
+/// Baseline by name. Throws std::invalid_argument for an unknown one, and one that names the part when this
+/// OpenCV lacks a part that it needs.
 std::unique_ptr<BaselineTracker> makeBaselineTracker(const std::string& name,
                                                      const LineTrackerParameters& parameters);
 

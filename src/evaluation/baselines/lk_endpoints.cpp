@@ -1,6 +1,7 @@
 #include "lk_endpoints.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <opencv2/video/tracking.hpp>
 
@@ -15,10 +16,10 @@ constexpr int kMaxLevel = 2;  // three images in the pyramid
 
 }  // namespace
 
-LkEndpoints::LkEndpoints(const LineTrackerParameters& parameters)
+LkEndpoints::LkEndpoints(const LineTrackerParameters& parameters, std::unique_ptr<LineDetector> detector)
     : BaselineTracker(parameters),
       max_residual_(parameters.flow.max_residual),
-      detector_(makeLineDetector("lsd")) {}
+      detector_(std::move(detector)) {}
 
 void LkEndpoints::track(const cv::Mat& gray) {
   FrameStatistics& statistics = frame().statistics;

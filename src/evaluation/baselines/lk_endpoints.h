@@ -8,12 +8,12 @@
 
 namespace tet_line_tracker {
 
-/// TET with OpenCV's parts: LSD, then cv::calcOpticalFlowPyrLK on both endpoints (7x7 window, 3 levels, 10
-/// iterations) and the paper's residual test; LSD again when fewer than min_lines are left.
+/// TET with OpenCV's parts: lines detected once, then cv::calcOpticalFlowPyrLK on both endpoints (7x7 window,
+/// 3 levels, 10 iterations) and the paper's residual test; detection again when fewer than min_lines are
+/// left.
 class LkEndpoints : public BaselineTracker {
  public:
-  /// Throws std::invalid_argument when LSD does not work with this OpenCV.
-  explicit LkEndpoints(const LineTrackerParameters& parameters);
+  LkEndpoints(const LineTrackerParameters& parameters, std::unique_ptr<LineDetector> detector);
 
  protected:
   void track(const cv::Mat& gray) override;

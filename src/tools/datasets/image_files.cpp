@@ -10,7 +10,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "../encoded_image.h"
+#include "../../ros/encoded_image.h"
 
 namespace tet_line_tracker {
 namespace {

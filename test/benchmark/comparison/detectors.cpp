@@ -3,14 +3,10 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
-// OpenCV 4.2 of Ubuntu 20.04 does not have it.
-#if defined(TET_HAVE_XIMGPROC) && __has_include(<opencv2/ximgproc/edge_drawing.hpp>)
-#define TET_HAVE_EDGE_DRAWING
-#include <opencv2/ximgproc.hpp>
-#endif
-
+#include "evaluation/baselines/edge_drawing_detector.h"
 #include "evaluation/pose_track.h"
 #include "evaluation/scene_truth.h"
 #include "sections.h"
@@ -28,52 +24,26 @@ constexpr float kMaxAngle = 0.1F;         // [rad]
 
 using Lines = std::vector<LineSegment>;
 
-/// A detector by its name in the table.
-class Contender {
- public:
-  explicit Contender(const std::string& name) : name_(name) {
-    for (const std::string& own : availableDetectors()) {
-      if (own == name) own_ = makeLineDetector(name);
-    }
-#ifdef TET_HAVE_EDGE_DRAWING
-    if (!own_) edge_drawing_ = cv::ximgproc::createEdgeDrawing();
-#endif
-  }
+/// A detector and its name in the table.
+struct Contender {
+  std::string name;
+  std::shared_ptr<LineDetector> detector;
 
   void detect(const cv::Mat& image, float min_length, Lines& lines) {
-    if (own_) return own_->detect(image, min_length, lines);
-#ifdef TET_HAVE_EDGE_DRAWING
-    edge_drawing_->detectEdges(image);
-    edge_drawing_->detectLines(found_);
-    lines.clear();
-    for (const cv::Vec4f& line : found_) {
-      lines.push_back({{line[0], line[1]}, {line[2], line[3]}});
-      if (lines.back().length() < min_length) lines.pop_back();
-    }
-#endif
+    detector->detect(image, min_length, lines);
   }
-  const std::string& name() const {
-    return name_;
-  }
-
- private:
-  std::string name_;
-  std::unique_ptr<LineDetector> own_;
-#ifdef TET_HAVE_EDGE_DRAWING
-  cv::Ptr<cv::ximgproc::EdgeDrawing> edge_drawing_;
-  std::vector<cv::Vec4f> found_;
-#endif
 };
 
 std::vector<Contender> contenders() {
   std::vector<Contender> all;
+  const std::vector<std::string> available = availableDetectors();
   for (const char* const name : {"lsd", "edge", "fld"}) {
-    const std::vector<std::string> available = availableDetectors();
-    if (std::find(available.begin(), available.end(), name) != available.end()) all.emplace_back(name);
+    if (std::find(available.begin(), available.end(), name) == available.end()) continue;
+    all.push_back({name, makeLineDetector(name)});
   }
-#ifdef TET_HAVE_EDGE_DRAWING
-  all.emplace_back("cv::ximgproc::EdgeDrawing");
-#endif
+  if (auto edge_drawing = makeEdgeDrawingDetector()) {
+    all.push_back({"cv::ximgproc::EdgeDrawing", std::move(edge_drawing)});
+  }
   return all;
 }
 
@@ -205,7 +175,7 @@ void compareDetectors(const Sequence& sequence, std::size_t images) {
   }
   std::printf("\n## Line detectors [ms]\n");
   TimeTable table("detector, lines from 30 px on");
-  for (std::size_t k = 0; k < all.size(); ++k) table.add(all[k].name(), times[k]);
+  for (std::size_t k = 0; k < all.size(); ++k) table.add(all[k].name, times[k]);
   table.print(0);
 
   std::printf(
@@ -218,7 +188,7 @@ void compareDetectors(const Sequence& sequence, std::size_t images) {
   for (std::size_t i = 0; i < regimes.size(); ++i) std::printf("---|");
   std::printf("\n");
   for (Contender& contender : all) {
-    std::printf("| %s |", contender.name().c_str());
+    std::printf("| %s |", contender.name.c_str());
     for (const Flight& flight : regimes) {
       const Flight::Repeated r = flight.repeat(contender);
       std::printf(" %.1f %% of %.0f |", 100.0 * r.found / std::max(1.0, r.expected), r.lines);

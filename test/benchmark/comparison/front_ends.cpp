@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <map>
 #include <memory>
+#include <string>
 
 #include "evaluation/baselines/baseline_tracker.h"
 #include "sections.h"
@@ -47,8 +49,12 @@ Contender baselineOf(const std::string& name, const std::string& baseline, const
 void compareFrontEnds(const Sequence& sequence, std::size_t images) {
   std::vector<Contender> contenders;
   for (const std::string& name : baselineNames()) {
-    contenders.push_back(
-        baselineOf(name == "lsd_lbd_knn" ? "LSD + LBD + KNN" : "LSD + OpenCV's LK", name, sequence));
+    static const std::map<std::string, std::string> kTitles{{"lsd_lbd_knn", "LSD + LBD + KNN"},
+                                                            {"ed_lbd_knn", "EdgeDrawing + LBD + KNN"},
+                                                            {"fld_lbd_knn", "FLD + LBD + KNN"},
+                                                            {"lk_endpoints", "LSD + OpenCV's LK"},
+                                                            {"lsd_remapped", "LSD on undistorted images"}};
+    contenders.push_back(baselineOf(kTitles.at(name), name, sequence));
   }
   contenders.push_back(trackerOf("method: joint, 100 lines", ours(100), sequence));
   contenders.push_back(trackerOf("method: joint, 150 lines (default)", ours(150), sequence));

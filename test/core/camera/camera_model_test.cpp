@@ -151,6 +151,47 @@ TEST(CameraModel, FindsTheRayThatAPointCameFrom) {
   }
 }
 
+TEST(CameraModel, FollowsItsPolynomialToTheEndOfItsRange) {
+  const std::vector<std::vector<double>> lenses{
+      {0.0, 0.0, 0.0, 0.0},                                         // to 180 degrees
+      {0.0034823894, 0.00071502487, -0.0020532361, 0.00020293673},  // TUM-VI
+      {-0.05, 0.0, 0.0, 0.0},                                       // to 148 degrees, where it turns
+      {-0.2, 0.0, 0.0, 0.0}};                                       // to 74 degrees
+  for (const std::vector<double>& k : lenses) {
+    const auto camera =
+        makeCameraModel(calibrationOf("equidistant", 512, 512, 191.0, 189.0, 254.93, 256.9, k));
+    double last = 0.0;
+    for (double angle = 0.0; angle < 3.1415; angle += 0.0007) {
+      const double a2 = angle * angle;
+      if (1.0 + a2 * (3.0 * k[0] + a2 * (5.0 * k[1] + a2 * (7.0 * k[2] + a2 * 9.0 * k[3]))) < 1e-3) break;
+      const double radius = angle * (1.0 + a2 * (k[0] + a2 * (k[1] + a2 * (k[2] + a2 * k[3]))));
+      const double turn = 40.0 * angle;
+      const Eigen::Vector3d ray(std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn),
+                                std::cos(angle));
+      const Eigen::Vector2d expected(191.0 * radius * std::cos(turn) + 254.93,
+                                     189.0 * radius * std::sin(turn) + 256.9);
+      const auto pixel = camera->project(3.0 * ray);
+      ASSERT_TRUE(pixel) << angle;
+      ASSERT_LT((*pixel - expected).norm(), 1e-8) << angle;
+      const auto found = camera->unproject(expected);
+      ASSERT_TRUE(found) << angle;
+      ASSERT_LT((*found - ray).norm(), 1e-8) << angle;
+      last = angle;
+    }
+    EXPECT_GT(last, 1.28);
+    if (last < 3.0) {
+      // Behind the end, where the radius shrinks again, two rays would share a pixel.
+      const double radius = last * (1.0 + last * last * k[0]);
+      EXPECT_FALSE(camera->project({std::sin(last + 0.1), 0.0, std::cos(last + 0.1)})) << last;
+      EXPECT_FALSE(camera->unproject({1.01 * 191.0 * radius + 254.93, 256.9})) << last;
+    }
+    const auto principal = camera->project({0.0, 0.0, 2.0});
+    ASSERT_TRUE(principal);
+    EXPECT_EQ(*principal, Eigen::Vector2d(254.93, 256.9));
+    EXPECT_FALSE(camera->project({0.0, 0.0, -1.0})) << "every direction in the image is as good as any other";
+  }
+}
+
 TEST(CameraModel, KeepsAMirroredImageAxis) {
   // ICL-NUIM has fy < 0.
   const auto camera = makeCameraModel(calibrationOf("plumb_bob", 640, 480, 481.2, -480.0, 319.5, 239.5, {}));

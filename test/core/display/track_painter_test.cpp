@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "bent_edge.h"
+#include "display/drawing.h"
 #include "display/legend.h"
 #include "tet_line_tracker/camera/lens_bend.h"
 
@@ -150,6 +151,98 @@ TEST(TrackPainter, ShowsWhatTheImageBeforeHadAndThisOneLacks) {
   EXPECT_EQ(painted(8, 1, false), 0);
   EXPECT_EQ(painted(9, 1, true), 0) << "another image was in between";
   EXPECT_EQ(painted(8, 2, true), 0) << "of another epoch";
+}
+
+/// The image after one with `lines`, all of which are lost for these reasons, on an even ground.
+cv::Mat paintedLosses(const std::vector<TrackedLine>& lines, const std::vector<LostLine>& lost, int ground,
+                      const std::vector<TrackedLine>& remaining = {}, bool ids = false) {
+  const cv::Mat gray(480, 752, CV_8UC1, cv::Scalar(ground));
+  TrackPainter painter({0, ids, false, true});
+  cv::Mat bgr;
+  LineFrame frame = frameOf(752, 480, lines);
+  frame.lines.insert(frame.lines.end(), remaining.begin(), remaining.end());
+  frame.image_count = 7;
+  painter.paint(gray, frame, bgr);
+  frame.lines = remaining;
+  frame.lost = lost;
+  frame.image_count = 8;
+  painter.paint(gray, frame, bgr);
+  return bgr;
+}
+
+int differing(const cv::Mat& one, const cv::Mat& two, const cv::Rect& area) {
+  cv::Mat apart;
+  cv::absdiff(one(area), two(area), apart);
+  return cv::countNonZero(apart.reshape(1));
+}
+
+TEST(TrackPainter, WritesBesideALostLineWhyItWasLost) {
+  const std::vector<TrackedLine> lines{lineOf(3, 9, {100, 200}, {400, 200})};
+  const std::vector<LostLine> support{{3, LossReason::kSupport}};
+  const cv::Rect beside(150, 180, 200, 40);
+  const cv::Mat unknown = paintedLosses(lines, {}, 100);
+  const cv::Mat known = paintedLosses(lines, support, 100);
+  EXPECT_GT(differing(known, unknown, beside), 100);
+  EXPECT_GT(differing(known, paintedLosses(lines, {{3, LossReason::kAngle}}, 100), beside), 100);
+  // With ids or without.
+  EXPECT_EQ(differing(known, paintedLosses(lines, support, 100, {}, true), {0, 0, 752, 480}), 0);
+  // Of another line.
+  EXPECT_EQ(differing(unknown, paintedLosses(lines, {{4, LossReason::kSupport}}, 100), {0, 0, 752, 480}), 0);
+}
+
+TEST(TrackPainter, AReasonCanBeReadOnDarkAndOnBrightGround) {
+  const std::vector<TrackedLine> lines{lineOf(3, 9, {100, 200}, {400, 200})};
+  for (const int ground : {0, 128, 255}) {
+    const cv::Mat bgr = paintedLosses(lines, {{3, LossReason::kSupport}}, ground);
+    const cv::Mat unknown = paintedLosses(lines, {}, ground);
+    int coloured = 0;
+    int dark = 0;
+    for (int y = 180; y < 220; ++y) {
+      for (int x = 150; x < 350; ++x) {
+        const cv::Vec3b& pixel = bgr.at<cv::Vec3b>(y, x);
+        if (pixel == unknown.at<cv::Vec3b>(y, x)) continue;
+        const auto reach = [&](const cv::Scalar& colour) {
+          return std::abs(pixel[0] - colour[0]) + std::abs(pixel[1] - colour[1]) +
+                 std::abs(pixel[2] - colour[2]);
+        };
+        coloured += reach(kLossColour) < 120 ? 1 : 0;
+        dark += reach(cv::Scalar::all(0)) < 150 ? 1 : 0;
+      }
+    }
+    EXPECT_GT(coloured, 40) << ground;
+    EXPECT_TRUE(ground == 0 || dark > 40) << ground << ": " << dark << " px of the rim";
+  }
+}
+
+TEST(TrackPainter, ReasonsOfTheLongestLinesComeFirstAndBeforeIds) {
+  // Both want the room above the upper and below the lower line; the lower line is lost for another reason.
+  const TrackedLine upper = lineOf(1, 9, {100, 200}, {108, 200});
+  const TrackedLine lower = lineOf(2, 9, {96, 203}, {112, 203});
+  const std::vector<LostLine> both{{1, LossReason::kSupport}, {2, LossReason::kBorder}};
+  const cv::Rect all(0, 0, 752, 480);
+  const cv::Mat painted = paintedLosses({upper, lower}, both, 100);
+  EXPECT_EQ(differing(painted, paintedLosses({upper, lower}, {both[1], both[0]}, 100), all), 0);
+  EXPECT_GT(differing(painted, paintedLosses({upper, lower}, {both[0]}, 100), all), 100);
+  // What is written of the longer one alone is there beside the other too.
+  const cv::Mat unknown = paintedLosses({upper, lower}, {}, 100);
+  const cv::Mat longer = paintedLosses({upper, lower}, {both[1]}, 100);
+  int written = 0;
+  int kept = 0;
+  for (int y = 0; y < 400; ++y) {
+    for (int x = 0; x < 752; ++x) {
+      if (longer.at<cv::Vec3b>(y, x) == unknown.at<cv::Vec3b>(y, x)) continue;
+      ++written;
+      kept += painted.at<cv::Vec3b>(y, x) == longer.at<cv::Vec3b>(y, x) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(written, 100);
+  EXPECT_EQ(kept, written);
+
+  // A line that stays beside one that is lost: its id has what room is left.
+  const TrackedLine stays = lineOf(88888888, 90, {100, 203}, {108, 203});
+  const cv::Mat with_id = paintedLosses({upper}, {both[0]}, 100, {stays}, true);
+  const cv::Mat without_id = paintedLosses({upper}, {both[0]}, 100, {stays}, false);
+  EXPECT_EQ(differing(with_id, without_id, {60, 180, 90, 20}), 0) << "the reason stays where it was";
 }
 
 TEST(TrackPainter, SaysInWordsHowManyLinesThereAreHowLongTheyTookAndWhyOthersWereLost) {

@@ -1,6 +1,7 @@
 #include "tet_line_tracker/flow/endpoint_tracker.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
@@ -303,6 +304,65 @@ TEST(EndpointTracker, RefusesParametersOutOfRangeAndTemplatesOfAnotherWindow) {
   // Extracted again, the template is of the other window.
   other->extractTemplate(pyramid, kLine, patches);
   EXPECT_EQ(other->track(patches, pyramid, kLine).status, EndpointFlow::Status::kTracked);
+}
+
+/// A flow that begins on the finest level, by the template that is made for it.
+EndpointFlow followNear(const Eigen::Vector2f& shift) {
+  const auto tracker = joint();
+  ImagePyramid first, second;
+  first.build(smoothImage(kWidth, kHeight, {0.0F, 0.0F}), 3);
+  second.build(smoothImage(kWidth, kHeight, shift), 3);
+  LineTemplate patches;
+  tracker->extractTemplate(first, kLine, patches, EndpointTracker::Reach::kNear);
+  return tracker->track(patches, second, kLine, EndpointTracker::Reach::kNear);
+}
+
+TEST(EndpointTracker, FindsALineNearItsPlaceOnTheFinestLevelAlone) {
+  const Eigen::Vector2f shift(2.0F, -1.5F);
+  const EndpointFlow flow = followNear(shift);
+  ASSERT_EQ(flow.status, EndpointFlow::Status::kTracked);
+  EXPECT_LT((flow.segment.start - kLine.start - shift).norm(), 0.1F);
+  EXPECT_LT((flow.segment.end - kLine.end - shift).norm(), 0.1F);
+}
+
+TEST(EndpointTracker, TheFinestLevelAloneDoesNotReachFar) {
+  const Eigen::Vector2f shift(9.0F, -9.0F);
+  EXPECT_NE(followNear(shift).status, EndpointFlow::Status::kTracked);
+  EXPECT_EQ(followShift(*joint(), shift).status, EndpointFlow::Status::kTracked);
+}
+
+TEST(EndpointTracker, ATemplateOfTheFinestLevelIsRefusedWhereAllAreNeeded) {
+  const auto tracker = joint();
+  ImagePyramid pyramid;
+  pyramid.build(smoothImage(kWidth, kHeight, {0.0F, 0.0F}), 3);
+  LineTemplate patches;
+  tracker->extractTemplate(pyramid, kLine, patches, EndpointTracker::Reach::kNear);
+  EXPECT_THROW(tracker->track(patches, pyramid, kLine), std::invalid_argument);
+  LinePath path;
+  path.chords[0] = kLine;
+  path.count = 1;
+  std::array<LineSegment, EndpointTracker::kMaxStarts> best;
+  EXPECT_THROW(tracker->search(patches, pyramid, path, best), std::invalid_argument);
+}
+
+TEST(EndpointTracker, AnExtendedTemplateIsAsOneThatWasWholeFromTheStart) {
+  const auto tracker = joint();
+  ImagePyramid first, second;
+  first.build(smoothImage(kWidth, kHeight, {0.0F, 0.0F}), 3);
+  second.build(smoothImage(kWidth, kHeight, {7.0F, 3.0F}), 3);
+  LineTemplate whole, extended;
+  tracker->extractTemplate(first, kLine, whole);
+  tracker->extractTemplate(first, kLine, extended, EndpointTracker::Reach::kNear);
+  tracker->extendTemplate(first, extended);
+  const EndpointFlow a = tracker->track(whole, second, kLine);
+  // What is whole already stays as it is.
+  tracker->extendTemplate(second, extended);
+  const EndpointFlow b = tracker->track(extended, second, kLine);
+  EXPECT_EQ(a.status, EndpointFlow::Status::kTracked);
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.segment.start, b.segment.start);
+  EXPECT_EQ(a.segment.end, b.segment.end);
+  EXPECT_EQ(a.residual, b.residual);
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ TEST(LineSegment, TheAngleRespectsTheRolesOfStartAndEnd) {
   const LineSegment b{{0.0F, 0.0F}, {0.0F, 4.0F}};
   const LineSegment reversed{{10.0F, 0.0F}, {0.0F, 0.0F}};
   EXPECT_NEAR(angleBetween(a, b), M_PI / 2, 1e-6);
+  EXPECT_NEAR(angleBetween(b, a), M_PI / 2, 1e-6) << "in either order";
   EXPECT_NEAR(angleBetween(a, reversed), M_PI, 1e-6);
 }
 

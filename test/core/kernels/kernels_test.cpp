@@ -1,5 +1,6 @@
 #include "kernels/kernels.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -143,11 +144,67 @@ TEST(Kernels, SupportCountsSamplesNearTheFitThatAreSteep) {
   const float places[kLanes] = {-1.0F, -0.5F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 0.0F};
   const float offsets[kLanes] = {0.5F, 3.0F, 1.0F, 1.75F, 1.0F, 1.0F, 1.0F, 1.0F};
   const float slopes[kLanes] = {6.0F, 9.0F, 1.0F, 10.0F, 9.0F, 9.0F, 9.0F, 9.0F};
-  float sums[3];
-  active().sumSupport({places, offsets, slopes, 4}, {1.0F, 0.5F}, 1.0F, 2.0F, sums);
+  const float widths[kLanes] = {1.5F, 7.0F, 7.0F, 2.0F, 7.0F, 7.0F, 7.0F, 7.0F};
+  float sums[4];
+  active().sumSupport({places, offsets, slopes, widths, 4}, {1.0F, 0.5F}, 1.0F, 2.0F, sums);
   EXPECT_EQ(sums[0], 2.0F);
   EXPECT_EQ(sums[1], 16.0F);
   EXPECT_EQ(sums[2], 0.0625F);
+  EXPECT_EQ(sums[3], 3.5F);
+}
+
+TEST(Kernels, AnEdgeIsAsWideAsItsHeightOverItsSteepestStep) {
+  // In each column a rise of 120 gray levels over one more step than in the one before, from row 6 on.
+  constexpr int kRows = kMaxProfile;
+  std::vector<std::uint8_t> image(kRows * kLanes);
+  ProfileBatch batch{};
+  for (int lane = 0; lane < kLanes; ++lane) {
+    for (int row = 0; row < kRows; ++row) {
+      const int steps = std::min(lane + 1, std::max(0, row - 6));
+      image[static_cast<std::size_t>(row * kLanes + lane)] =
+          static_cast<std::uint8_t>(60 + 120 * steps / (lane + 1));
+    }
+    batch.pixels[lane] = image.data() + lane;
+    batch.centre[lane] = 8.0F;
+  }
+  batch.step = kLanes;
+  batch.count = kRows;
+  batch.polarity = 1.0F;
+  batch.distance_scale = 0.1F;
+  batch.peak_share = 0.3F;
+  float places[kLanes], slopes[kLanes], widths[kLanes];
+  active().findEdges(batch, places, slopes, widths);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    EXPECT_NEAR(widths[lane], static_cast<float>(lane + 1), 0.3F) << lane;
+    EXPECT_NEAR(places[lane], 6.0F + 0.5F * static_cast<float>(lane + 1), 0.2F) << lane;
+  }
+}
+
+TEST(Kernels, ProfilesAlongRowsAndColumnsOfTheSamePixelsGiveTheSameEdges) {
+  const std::vector<std::uint8_t> image = noise();
+  for (int count = 3; count <= kMaxProfile; ++count) {
+    // The profiles again side by side, so that their pixels lie below each other.
+    std::vector<std::uint8_t> columns(static_cast<std::size_t>(count * kLanes));
+    ProfileBatch batch{};
+    for (int lane = 0; lane < kLanes; ++lane) {
+      batch.pixels[lane] = image.data() + (lane + 2) * kWidth + 5 * lane;
+      batch.centre[lane] = 0.5F * static_cast<float>(count);
+      for (int k = 0; k < count; ++k) {
+        columns[static_cast<std::size_t>(k * kLanes + lane)] = batch.pixels[lane][k];
+      }
+    }
+    batch.step = 1;
+    batch.count = count;
+    batch.polarity = 1.0F;
+    batch.distance_scale = 0.1F;
+    batch.peak_share = 0.4F;
+    float along_rows[3][kLanes], along_columns[3][kLanes];
+    active().findEdges(batch, along_rows[0], along_rows[1], along_rows[2]);
+    for (int lane = 0; lane < kLanes; ++lane) batch.pixels[lane] = columns.data() + lane;
+    batch.step = kLanes;
+    active().findEdges(batch, along_columns[0], along_columns[1], along_columns[2]);
+    EXPECT_EQ(std::memcmp(along_rows, along_columns, sizeof along_rows), 0) << count;
+  }
 }
 
 TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
@@ -191,17 +248,19 @@ TEST(Kernels, EveryInstructionSetGivesTheSameBits) {
       batch.distance_scale = 0.3F;
       batch.peak_share = 0.4F;
       float places_a[kLanes], places_b[kLanes], slopes_a[kLanes], slopes_b[kLanes], sums_a[5], sums_b[5];
-      tables[0]->findEdges(batch, places_a, slopes_a);
-      tables[t]->findEdges(batch, places_b, slopes_b);
+      float widths_a[kLanes], widths_b[kLanes];
+      tables[0]->findEdges(batch, places_a, slopes_a, widths_a);
+      tables[t]->findEdges(batch, places_b, slopes_b, widths_b);
+      EXPECT_EQ(std::memcmp(widths_a, widths_b, sizeof widths_a), 0) << count;
       EXPECT_EQ(std::memcmp(places_a, places_b, sizeof places_a), 0) << count;
       EXPECT_EQ(std::memcmp(slopes_a, slopes_b, sizeof slopes_a), 0) << count;
-      const EdgeSamples samples{places_a, places_b, slopes_a, kLanes};
+      const EdgeSamples samples{places_a, places_b, slopes_a, widths_a, kLanes};
       tables[0]->sumOffsets(samples, {5.0F, 0.2F}, 9.0F, 1.0F, sums_a);
       tables[t]->sumOffsets(samples, {5.0F, 0.2F}, 9.0F, 1.0F, sums_b);
       EXPECT_EQ(std::memcmp(sums_a, sums_b, sizeof sums_a), 0) << count;
       tables[0]->sumSupport(samples, {5.0F, 0.2F}, 9.0F, 1.0F, sums_a);
       tables[t]->sumSupport(samples, {5.0F, 0.2F}, 9.0F, 1.0F, sums_b);
-      EXPECT_EQ(std::memcmp(sums_a, sums_b, 3 * sizeof(float)), 0) << count;
+      EXPECT_EQ(std::memcmp(sums_a, sums_b, 4 * sizeof(float)), 0) << count;
     }
     for (int width = 16; width <= kWidth; ++width) {
       std::vector<std::uint16_t> row(static_cast<std::size_t>(width) + kRowPadding);

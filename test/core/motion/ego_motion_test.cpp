@@ -35,7 +35,8 @@ class EgoMotionTest : public testing::Test {
   void SetUp() override { tracker_.setCamera(BoardScene::camera()); }
 
   /// The next image, 0.1 s later; the camera is expected not to turn.
-  MotionPrediction see(const Pose& pose, const std::optional<EgoMotionTracker::Turn>& gyro = std::nullopt) {
+  MotionPrediction see(const Pose& pose,
+                       const std::optional<EgoMotionTracker::MeasuredRotation>& gyro = std::nullopt) {
     MotionPrediction prediction;
     tracker_.update(view(scene_, pose), 0.1, gyro, std::nullopt, prediction);
     return prediction;
@@ -71,8 +72,8 @@ TEST_F(EgoMotionTest, FindsATurnThatNobodyMeasuredBesideTheTranslation) {
 TEST_F(EgoMotionTest, OverrulesAGyroscopeThatIsNotTrustedYet) {
   see(at({0, 0, 0}));
   const Pose next = at({0.15, 0.0, 0.05});
-  const EgoMotionTracker::Turn wrong{so3Exp(kDegree * Eigen::Vector3d(3.0, 2.0, 0.0)).toRotationMatrix(),
-                                     0.001, false};
+  const EgoMotionTracker::MeasuredRotation wrong{
+      so3Exp(kDegree * Eigen::Vector3d(3.0, 2.0, 0.0)).toRotationMatrix(), 0.001, false};
   const MotionPrediction motion = see(next, wrong);
   ASSERT_TRUE(motion.confirmed);
   EXPECT_LT(so3Log(motion.rotation).norm(), 0.4 * kDegree);
@@ -89,8 +90,8 @@ TEST_F(EgoMotionTest, FindsATurnFartherThanTheFlowReachesWithAndWithoutAGyroscop
 
   tracker_.reset();
   see(at({0, 0, 0}));
-  const EgoMotionTracker::Turn gyro{so3Exp(kDegree * Eigen::Vector3d(0.5, 24.0, 0.0)).toRotationMatrix(),
-                                    0.01, false};
+  const EgoMotionTracker::MeasuredRotation gyro{
+      so3Exp(kDegree * Eigen::Vector3d(0.5, 24.0, 0.0)).toRotationMatrix(), 0.01, false};
   const MotionPrediction by_gyro = see(next, gyro);
   EXPECT_TRUE(by_gyro.confirmed);
   EXPECT_STREQ(by_gyro.sourceName(), "imu");

@@ -68,6 +68,35 @@ TEST(EpipolarEstimator, FindsTheRotationThatTheParallaxWasTakenFor) {
   EXPECT_LT(degreesBetween(motion.translation, step), 5.0);
 }
 
+TEST(EpipolarEstimator, IsExactWithoutNoise) {
+  const Eigen::Vector3d step(0.2, 0.05, -0.1);
+  const Eigen::Vector3d error(0.0, 0.002, 0.001);
+  std::vector<PointPair> pairs = pairsOf(step, error, 0.0);
+  EpipolarEstimator estimator;
+  EpipolarEstimator::Prior prior;
+  prior.rotation_sigma = 1.0;  // so wide that it does not pull
+  const EgoMotion motion = estimator.estimate(pairs, kFocal, prior);
+  ASSERT_TRUE(motion.known());
+  EXPECT_LT((motion.translation - step.normalized()).norm(), 5e-5);
+  EXPECT_LT((motion.rotation - error).norm(), 5e-6);  // small angles are taken as linear
+}
+
+TEST(EpipolarEstimator, LeavesOutAWrongPairNearTheEpipoleToo) {
+  // Towards the epipole the planes of neighbouring points differ by little.
+  const Eigen::Vector3d step(0.0, 0.0, -0.3);
+  std::vector<PointPair> pairs = pairsOf(step, Eigen::Vector3d::Zero(), 0.1);
+  PointPair wrong;
+  wrong.before = Eigen::Vector3d(0.1, 0.0, 1.0);
+  wrong.now = Eigen::Vector3d(0.108, 3.0 / kFocal, 1.0);
+  pairs.push_back(wrong);
+  EpipolarEstimator estimator;
+  EpipolarEstimator::Prior prior;
+  prior.rotation_sigma = 0.002;
+  const EgoMotion motion = estimator.estimate(pairs, kFocal, prior);
+  EXPECT_EQ(motion.inliers, pairs.size() - 1);
+  EXPECT_FALSE(pairs.back().inlier);
+}
+
 TEST(EpipolarEstimator, GivesInverseDepthsInUnitsOfTheStep) {
   const Eigen::Vector3d step(0.1, 0.0, -0.3);
   std::vector<double> depths;

@@ -87,6 +87,18 @@ void addGyro(MotionPrior& prior, std::int64_t first_ms, std::int64_t last_ms,
 const Eigen::Vector3d kFastTurns[] = {
     {0.0, 3.0, 0.0}, {2.5, -2.0, 0.0}, {0.0, 0.0, 4.0}, {-1.0, 2.5, -3.0}, {0.3, 0.2, -0.3}};
 
+TEST(MotionPrior, NeedsNothingOfAPyramidOnceTheNextOneIsBuiltInItsPlace) {
+  MotionPriorParameters parameters = prior("image");
+  parameters.ego_motion = false;  // corners would find the turn too
+  MotionPrior motion(parameters);
+  motion.setCamera(camera());
+  const Eigen::Matrix3d turn = turned({0.0, 2.0, 0.0});
+  ImagePyramid pyramid = view(Eigen::Matrix3d::Identity());
+  motion.predict(pyramid, kPeriod);
+  pyramid.build(view(turn).level(0), MotionPrior::kPyramidLevels);
+  EXPECT_LT(degreesBetween(motion.predict(pyramid, 2 * kPeriod).rotation, turn), 0.1);
+}
+
 TEST(MotionPrior, FindsATurnInTheImagesToATenthOfADegree) {
   for (const Eigen::Vector3d& degrees : kFastTurns) {
     MotionPrior images(prior("image"));

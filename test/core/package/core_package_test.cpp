@@ -52,15 +52,25 @@ class TemporaryFolder {
   fs::path path_;
 };
 
+/// CMake of the core alone, in `folder`, with these options.
+ShellResult configure(const fs::path& folder, const std::string& options) {
+  return runShell(quoted(TET_CMAKE) + " -S " + quoted(TET_SOURCE_DIRECTORY "/src/core") + " -B " +
+                  quoted(folder) + " -G '" TET_GENERATOR "' -DCMAKE_CXX_COMPILER='" TET_COMPILER "' " +
+                  options);
+}
+
 TEST(CorePackage, ConfiguresWithoutCatkin) {
   const TemporaryFolder folder;
   // A disabled package that is REQUIRED is an error.
-  const ShellResult configure =
-      runShell(quoted(TET_CMAKE) + " -S " + quoted(TET_SOURCE_DIRECTORY "/src/core") + " -B " +
-               quoted(folder / "build") +
-               " -G '" TET_GENERATOR "' -DCMAKE_CXX_COMPILER='" TET_COMPILER
-               "' -DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON");
-  EXPECT_EQ(configure.status, 0) << configure.output;
+  const ShellResult result = configure(folder / "build", "-DCMAKE_DISABLE_FIND_PACKAGE_catkin=ON");
+  EXPECT_EQ(result.status, 0) << result.output;
+}
+
+TEST(CorePackage, ConfiguresWithoutItsTestsAndGoogleTest) {
+  const TemporaryFolder folder;
+  const ShellResult result =
+      configure(folder / "build", "-DTET_TESTS=OFF -DCMAKE_DISABLE_FIND_PACKAGE_GTest=ON");
+  EXPECT_EQ(result.status, 0) << result.output;
 }
 
 TEST(CorePackage, AProgramOutsideTheTreeFindsItAndTracksTwoImages) {

@@ -198,6 +198,22 @@ TEST(LineRefiner, ALineThatIsNowhereComesBackWithoutSupport) {
   }
 }
 
+TEST(LineRefiner, ABlurredEdgeMayBeBesideItsPlaceAlikeAtBothEnds) {
+  const LineRefiner refiner(LineRefinerParameters{});
+  const LineSegment truth = along(0.3F, 100.0F, kMiddle);
+  const auto fitTo = [&](float width) {
+    const cv::Mat image = edgeImage(0.3F, 80.0F, 0.5F, kMiddle, width);
+    return refiner.fit(image, truth, refiner.contrastOf(image, truth));
+  };
+  const EdgeFit sharp = fitTo(kSharp);
+  const EdgeFit blurred = fitTo(2.2F);
+  EXPECT_LT(sharp.sigma_px, 0.02F);
+  EXPECT_GT(blurred.sigma_px, 0.15F);
+  EXPECT_LT(blurred.sigma_px, 0.6F);
+  const auto [start, both, end] = blurred.covariance_px;
+  EXPECT_GT(both, 0.4F * std::sqrt(start * end));
+}
+
 TEST(LineRefiner, TheCovarianceOfTheEndsIsALittleMoreThanThatOfTheirErrorsFromPureNoise) {
   const LineRefiner refiner(LineRefinerParameters{});
   const LineSegment truth = along(0.4F, 90.0F, kMiddle);

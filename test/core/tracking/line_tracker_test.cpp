@@ -41,6 +41,15 @@ TEST(LineTracker, TellsUpToWhichStampOfTheImuAnImageNeedsIt) {
   EXPECT_EQ(LineTracker(parameters).imuStamp(1000000000), 998500000);
 }
 
+TEST(LineTracker, NamesTheLinesThatAnImageHasLostInThisImageAlone) {
+  LineTracker tracker(boxParameters());
+  const std::size_t lines =
+      tracker.process(boxesImage(kWidth, kHeight, shiftAt(0)), kStart).frame->lines.size();
+  const cv::Mat wall(kHeight, kWidth, CV_8UC1, cv::Scalar(100));
+  EXPECT_EQ(tracker.process(wall, kStart + kPeriod).frame->lost.size(), lines);
+  EXPECT_TRUE(tracker.process(wall, kStart + 2 * kPeriod).frame->lost.empty());
+}
+
 TEST(LineTracker, LinesKeepTheirIdsOverFiftyImagesAndFollowTheEdges) {
   LineTracker tracker(boxParameters());
   std::map<std::uint64_t, LineSegment> first;

@@ -19,7 +19,7 @@ EdgeFit edgeOn(const LineSegment& line, float contrast) {
 
 TEST(TrackTable, NewTracksHaveIdsNeverUsedBeforeAndBeginAtAgeOneWithoutParallax) {
   TrackTable tracks;
-  FrameStatistics statistics;
+  LineFrame frame;
   for (int i = 0; i < 3; ++i) {
     tracks.add(edgeOn(number(i), 5.0F), LineBend{});
     TrackState& state = tracks.state(tracks.size() - 1);
@@ -31,7 +31,7 @@ TEST(TrackTable, NewTracksHaveIdsNeverUsedBeforeAndBeginAtAgeOneWithoutParallax)
     // What the next track finds in the buffers of this one must not matter.
     state.start_parallax = state.end_parallax = {3.0F, 4.0F};
     state.loss = LossReason::kFlow;
-    tracks.removeLost(statistics);
+    tracks.removeLost(frame);
   }
   tracks.add(edgeOn(number(3), 5.0F), LineBend{});
   tracks.clear();
@@ -39,26 +39,33 @@ TEST(TrackTable, NewTracksHaveIdsNeverUsedBeforeAndBeginAtAgeOneWithoutParallax)
   EXPECT_EQ(tracks.line(0).id, 4U);
 }
 
-TEST(TrackTable, RemovesTheLostTracksAndCountsThemByReason) {
+TEST(TrackTable, RemovesTheLostTracksAndTellsWhichAndWhy) {
   TrackTable tracks;
   for (int i = 0; i < 6; ++i) tracks.add(edgeOn(number(i), static_cast<float>(i)), LineBend{});
   tracks.state(0).loss = LossReason::kAngle;
   tracks.state(2).loss = LossReason::kMask;
   tracks.state(3).loss = LossReason::kAngle;
-  FrameStatistics statistics;
-  tracks.removeLost(statistics);
+  LineFrame frame;
+  tracks.removeLost(frame);
+  const FrameStatistics& statistics = frame.statistics;
   EXPECT_EQ(statistics.lostFor(LossReason::kAngle), 2U);
   EXPECT_EQ(statistics.lostFor(LossReason::kMask), 1U);
   EXPECT_EQ(statistics.lostFor(LossReason::kFlow), 0U);
   EXPECT_EQ(statistics.tracks_kept, 3U);
+  ASSERT_EQ(frame.lost.size(), 3U);
+  EXPECT_EQ(frame.lost[0].id, 0U);
+  EXPECT_EQ(frame.lost[1].id, 2U);
+  EXPECT_EQ(frame.lost[2].id, 3U);
+  EXPECT_EQ(frame.lost[1].reason, LossReason::kMask);
+  EXPECT_EQ(frame.lost[2].reason, LossReason::kAngle);
 }
 
 TEST(TrackTable, TheOtherTracksKeepTheirOrderAndTheirState) {
   TrackTable tracks;
   for (int i = 0; i < 6; ++i) tracks.add(edgeOn(number(i), static_cast<float>(i)), LineBend{});
   for (const std::size_t i : {0U, 2U, 3U}) tracks.state(i).loss = LossReason::kAngle;
-  FrameStatistics statistics;
-  tracks.removeLost(statistics);
+  LineFrame frame;
+  tracks.removeLost(frame);
   ASSERT_EQ(tracks.size(), 3U);
   const int kept[] = {1, 4, 5};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -52,6 +52,22 @@ TEST(CutFlags, ALineThatEndsInTheImageHasNone) {
   EXPECT_EQ(cuts(areaWith(nullptr, leftMask()), {{100.0F, 100.0F}, {290.0F, 200.0F}}), 0);
 }
 
+TEST(VisibleArea, AnotherBorderHoldsFromTheNextImageOn) {
+  VisibleArea area(150.0);  // within it this camera can normalise all pixels
+  area.setCamera(wideCamera());
+  area.setImageSize(kSize);
+  area.setBorder(kBorder);
+  area.setImageSize(kSize);
+  FrameStatistics statistics;
+  LineCurve line = area.lens().curve({{100.0F, 200.0F}, {400.0F, 200.0F}});
+  ASSERT_TRUE(area.cutToFieldOfView(0.0F, line, statistics));
+  EXPECT_GT(line.chord.start.x(), 115.0F);
+  area.setBorder(150.0);
+  area.setImageSize(kSize);
+  ASSERT_TRUE(area.cutToBounds(0.0F, line));
+  EXPECT_NEAR(line.chord.start.x(), 150.0F, 0.5F);
+}
+
 TEST(CutFlags, AnEndAtAnyBorderHasItsOwnBit) {
   const VisibleArea area = areaWith();
   const Eigen::Vector2f inside(320.0F, 200.0F);

@@ -1,9 +1,10 @@
-#include "lsd_lbd_knn.h"
+#include "lbd_knn.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include <opencv2/imgproc.hpp>
 
@@ -35,15 +36,15 @@ cv::line_descriptor::KeyLine keyLineOf(const LineSegment& segment, int index, co
 
 }  // namespace
 
-LsdLbdKnn::LsdLbdKnn(const LineTrackerParameters& parameters)
+LbdKnn::LbdKnn(const LineTrackerParameters& parameters, std::unique_ptr<LineDetector> detector)
     : BaselineTracker(parameters),
-      detector_(makeLineDetector("lsd")),
+      detector_(std::move(detector)),
       describer_(cv::line_descriptor::BinaryDescriptor::createBinaryDescriptor()),
       matcher_(cv::NORM_HAMMING) {
   describer_->setNumOfOctaves(1);
 }
 
-void LsdLbdKnn::track(const cv::Mat& gray) {
+void LbdKnn::track(const cv::Mat& gray) {
   FrameStatistics& statistics = frame().statistics;
   Stopwatch stage;
   detector_->detect(gray, static_cast<float>(detection().min_length), segments_);
@@ -92,7 +93,7 @@ void LsdLbdKnn::track(const cv::Mat& gray) {
   statistics.flow_ms = stage.lap();
 }
 
-std::vector<int> LsdLbdKnn::match(const cv::Mat& descriptors) const {
+std::vector<int> LbdKnn::match(const cv::Mat& descriptors) const {
   std::vector<int> partners(segments_.size(), -1);
   if (descriptors.empty() || descriptors_before_.rows < 2) return partners;
   std::vector<std::vector<cv::DMatch>> nearest;

@@ -9,10 +9,13 @@
 #include <stdexcept>
 #include <string>
 
+#include <sensor_msgs/image_encodings.h>
 #include <opencv2/imgcodecs.hpp>
 
 namespace tet_line_tracker {
 namespace {
+
+namespace encodings = sensor_msgs::image_encodings;
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -88,27 +91,56 @@ std::string damage(const std::string& words) {
   return {};
 }
 
+cv::Mat decode(const Bytes& bytes, int flags) {
+  try {
+    return cv::imdecode(bytes, flags);
+  } catch (const cv::Exception&) {
+    return {};
+  }
+}
+
+/// `format` begins with the encoding before the compression and a semicolon, where the driver says it.
+std::string encodingOf(const cv::Mat& picture, const std::string& format) {
+  if (picture.type() == CV_8UC1) {
+    const std::string before = format.substr(0, format.find(';'));
+    return encodings::isBayer(before) && encodings::bitDepth(before) == 8 ? before : encodings::MONO8;
+  }
+  if (picture.type() == CV_8UC3) return encodings::BGR8;
+  if (picture.type() == CV_8UC4) return encodings::BGRA8;
+  if (picture.type() == CV_16UC1) return encodings::MONO16;
+  throw std::invalid_argument("has " + std::to_string(picture.channels()) + " channels of " +
+                              std::to_string(8 * picture.elemSize1()) +
+                              " bits, needs 8-bit gray or colour, or 16-bit gray");
+}
+
 }  // namespace
 
-cv::Mat decodePicture(const std::vector<std::uint8_t>& bytes, int flags) {
+cv::Mat decodePicture(const std::vector<std::uint8_t>& bytes, int flags, DecoderWarnings warnings) {
   if (isCutOff(bytes)) {
     throw std::invalid_argument("is cut off after " + std::to_string(bytes.size()) + " bytes");
   }
   cv::Mat picture;
   std::string words;
-  if (!bytes.empty()) {
+  if (warnings == DecoderWarnings::kArePrinted) {
+    picture = decode(bytes, flags);
+  } else {
     StderrCatch caught;
-    try {
-      picture = cv::imdecode(bytes, flags);
-    } catch (const cv::Exception&) {
-      picture.release();
-    }
+    picture = decode(bytes, flags);
     words = caught.text();
   }
   if (picture.empty()) throw std::invalid_argument("is not an image that OpenCV can decode");
   const std::string fault = damage(words);
   if (!fault.empty()) throw std::invalid_argument("is damaged (" + fault + ")");
   return picture;
+}
+
+cv_bridge::CvImage decompress(const sensor_msgs::CompressedImage& message, DecoderWarnings warnings) {
+  try {
+    const cv::Mat picture = decodePicture(message.data, cv::IMREAD_UNCHANGED, warnings);
+    return {message.header, encodingOf(picture, message.format), picture};
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("compressed image (" + message.format + ") " + error.what());
+  }
 }
 
 }  // namespace tet_line_tracker

@@ -11,13 +11,12 @@
 
 namespace tet_line_tracker {
 
-/// What the paper compares with: LSD in every image, lines under min_length dropped, a binary LBD descriptor
-/// for each of the others, and the two nearest of the image before by Hamming distance; the nearest is the
-/// same line when it is clearly nearer than the second.
-class LsdLbdKnn : public BaselineTracker {
+/// What the paper compares with (its detector is LSD): lines are detected in every image, those under
+/// min_length dropped, a binary LBD descriptor taken of each of the others, and the two nearest of the image
+/// before found by Hamming distance; the nearest is the same line when it is clearly nearer than the second.
+class LbdKnn : public BaselineTracker {
  public:
-  /// Throws std::invalid_argument when LSD does not work with this OpenCV.
-  explicit LsdLbdKnn(const LineTrackerParameters& parameters);
+  LbdKnn(const LineTrackerParameters& parameters, std::unique_ptr<LineDetector> detector);
 
  protected:
   void track(const cv::Mat& gray) override;

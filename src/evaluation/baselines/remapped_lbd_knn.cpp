@@ -1,4 +1,4 @@
-#include "lsd_remapped.h"
+#include "remapped_lbd_knn.h"
 
 #include <Eigen/Geometry>
 #include <opencv2/imgproc.hpp>
@@ -7,18 +7,18 @@
 
 namespace tet_line_tracker {
 
-void LsdRemapped::track(const cv::Mat& gray) {
-  if (!camera()) return LsdLbdKnn::track(gray);
+void RemappedLbdKnn::track(const cv::Mat& gray) {
+  if (!camera()) return LbdKnn::track(gray);
   Stopwatch stage;
   if (prepared_for_ != camera() || map_.size() != gray.size()) prepare(gray.size());
   cv::remap(gray, remapped_, map_, cv::noArray(), cv::INTER_LINEAR);
   const double remap_ms = stage.lap();
-  LsdLbdKnn::track(remapped_);
+  LbdKnn::track(remapped_);
   frame().statistics.undistort_ms = remap_ms;
   for (TrackedLine& line : frame().lines) line.segment = *toRaw(line.segment);
 }
 
-bool LsdRemapped::isWanted(const LineSegment& segment) const {
+bool RemappedLbdKnn::isWanted(const LineSegment& segment) const {
   if (!camera()) return true;
   const std::optional<LineSegment> raw = toRaw(segment);
   if (!raw || raw->length() < static_cast<float>(detection().min_length)) return false;
@@ -28,7 +28,7 @@ bool LsdRemapped::isWanted(const LineSegment& segment) const {
   return bounds.contains(raw->start) && bounds.contains(raw->end);
 }
 
-void LsdRemapped::prepare(const cv::Size& size) {
+void RemappedLbdKnn::prepare(const cv::Size& size) {
   prepared_for_ = camera();
   constexpr double kStep = 1e-3;
   const auto project = [this](double x, double y) { return prepared_for_->project({x, y, 1.0}); };
@@ -45,7 +45,7 @@ void LsdRemapped::prepare(const cv::Size& size) {
   }
 }
 
-std::optional<LineSegment> LsdRemapped::toRaw(const LineSegment& segment) const {
+std::optional<LineSegment> RemappedLbdKnn::toRaw(const LineSegment& segment) const {
   const auto raw = [this](const Eigen::Vector2f& pixel) {
     const Eigen::Vector2d point = (pixel.cast<double>() - centre_).cwiseQuotient(focal_);
     return prepared_for_->project(point.homogeneous());

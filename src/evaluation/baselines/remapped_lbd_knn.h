@@ -3,17 +3,16 @@
 #include <memory>
 #include <optional>
 
-#include "lsd_lbd_knn.h"
+#include "lbd_knn.h"
 
 namespace tet_line_tracker {
 
-/// LsdLbdKnn as estimators with undistorted images use it: each image is remapped to a pinhole first, of the
+/// LbdKnn as estimators with undistorted images use it: each image is remapped to a pinhole first, of the
 /// same size and of the scale that the lens has at its axis. So it sees 79 degrees with EuRoC's lens and 118
-/// of a lens of 190 degrees. Lines come back in the raw image. Without a camera it is LsdLbdKnn.
-class LsdRemapped : public LsdLbdKnn {
+/// of a lens of 190 degrees. Lines come back in the raw image. Without a camera it is LbdKnn.
+class RemappedLbdKnn : public LbdKnn {
  public:
-  /// Throws std::invalid_argument when LSD does not work with this OpenCV.
-  using LsdLbdKnn::LsdLbdKnn;
+  using LbdKnn::LbdKnn;
 
  protected:
   void track(const cv::Mat& gray) override;
