@@ -140,6 +140,12 @@ class Configurations(unittest.TestCase):
             for remapping in ('/line_tracker/lines:=mine/lines', '/camera/image_raw:=/mine/image', '/camera/camera_info:=/mine/info'):
                 self.assertIn(remapping, command)
 
+    def test_the_launch_file_names_the_views_that_there_are(self):
+        command = subprocess.run(['roslaunch', '--args', '/line_tracker_rviz', cases.ROOT + '/launch/rviz.launch', 'view:=nonsense'],
+                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        self.assertNotEqual(command.returncode, 0)
+        self.assertIn('view is nonsense, must be camera, raw or world', command.stdout.decode())
+
 
 def plugin_is_built():
     return any(os.path.exists(prefix + '/lib/libtet_line_tracker_rviz.so') for prefix in os.environ['CMAKE_PREFIX_PATH'].split(':'))
