@@ -33,6 +33,14 @@ class EurocFolder : public DatasetFolder {
                   std::to_string(std::cos(0.1)) + ",0,0," + std::to_string(std::sin(0.1)) + "\n");
   }
 
+  /// The sensor.yaml of another sensor than the camera: 0.3 m along the body's z axis.
+  void writePlace(const std::string& sensor, const std::string& last_row = "0, 0, 0, 1") {
+    writeText(root() / "mav0" / sensor / "sensor.yaml",
+              "%YAML:1.0\nT_BS:\n  cols: 4\n  rows: 4\n  data: [1, 0, 0, 0,\n    0, 1, 0, 0,\n    0, 0, 1, "
+              "0.3,\n    " +
+                  last_row + "]\n");
+  }
+
   void writeSensor(const std::string& model, const std::string& resolution = "16, 12",
                    const std::string& intrinsics = "20, 21, 8, 6",
                    const std::string& distortion = "-0.3, 0.1, 0.001, 0.002") {
@@ -131,6 +139,30 @@ TEST_F(EurocFolder, GivesTheExtrinsicAsStaticTransform) {
   EXPECT_NEAR(transform.transform.rotation.w, std::sqrt(0.5), 1e-12);
 }
 
+TEST_F(EurocFolder, TakesThePlaceOfTheImuInTheBodyIntoAccount) {
+  writePlace("imu0");
+  ASSERT_EQ(convert("euroc").status, 0);
+  const auto tf = readTopic<tf2_msgs::TFMessage>(bag(), "/tf_static");
+  ASSERT_EQ(tf.size(), 1U);
+  ASSERT_EQ(tf[0].message.transforms.size(), 1U);
+  const auto& translation = tf[0].message.transforms[0].transform.translation;
+  EXPECT_NEAR(translation.y, 0.1, 1e-12);
+  EXPECT_NEAR(translation.z, -0.3, 1e-12) << "the camera is below the IMU";
+}
+
+TEST_F(EurocFolder, TakesThePlaceOfTheTruePosesInTheBodyIntoAccount) {
+  writePlace("state_groundtruth_estimate0");
+  ASSERT_EQ(convert("euroc").status, 0);
+  const auto poses = readTopic<geometry_msgs::PoseStamped>(bag(), "/ground_truth/pose");
+  ASSERT_EQ(poses.size(), 2U);
+  EXPECT_NEAR(toPose(poses[1].message.pose).translation().z(), -0.3, 1e-9);
+}
+
+TEST_F(EurocFolder, RefusesAPoseThatIsNone) {
+  writePlace("imu0", "0, 0, 0.5, 1");
+  expectFailure("euroc", "mav0/imu0/sensor.yaml: T_BS is not a rotation and a translation");
+}
+
 TEST_F(EurocFolder, LeavesOutPosesWhereTheGroundTruthHasAGap) {
   writeText(root() / "mav0/state_groundtruth_estimate0/data.csv",
             "1000000000000000000,0,0,0,1,0,0,0\n1000000001000000000,1,0,0,1,0,0,0\n");
@@ -152,6 +184,10 @@ TEST_F(EurocFolder, NamesFileAndLineOfBadNumbers) {
 }
 
 TEST_F(EurocFolder, RefusesMissingFilesAndStampsThatGoBack) {
+  writeText(root() / "mav0/imu0/data.csv",
+            "1000000000005000000,0.1,0.2,0.3,1,2,9.81\n1000000000000000000,0.4,0.5,0.6,3,4,9.82\n");
+  expectFailure("euroc", "mav0/imu0/data.csv:2: the stamp is not after that of the line before");
+  writeText(root() / "mav0/imu0/data.csv", "1000000000000000000,0.1,0.2,0.3,1,2,9.81\n");
   std::filesystem::remove(root() / "mav0/cam0/data/1000000000100000000.png");
   expectFailure("euroc", "cannot read " + (root() / "mav0/cam0/data/1000000000100000000.png").string());
   writeText(root() / "mav0/cam0/data.csv", "20,a.png\n10,b.png\n");

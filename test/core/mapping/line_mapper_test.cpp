@@ -228,6 +228,118 @@ TEST(LineMapper, RejectsWhatCannotBeALineInSpace) {
   EXPECT_EQ(distant.ends + distant.sigma, 1U);
 }
 
+/// What becomes of a line whose camera moves `share` as far as in the other tests.
+template <class LineOf>
+LineMapper::Rejected rejectedOf(const LineMapperParameters& parameters, double share, const LineOf& line_of,
+                                std::size_t mapped) {
+  LineMapper mapper(parameters);
+  const Eigen::Vector3d first = poseAt(0).translation();
+  for (int i = 0; i < 20; ++i) {
+    Eigen::Isometry3d pose = poseAt(i);
+    pose.translation() = first + share * (pose.translation() - first);
+    mapper.add(frameOf(i, {line_of(pose, static_cast<std::uint32_t>(i) + 1)}), pose);
+  }
+  mapper.finish();
+  EXPECT_EQ(mapper.lines().size(), mapped);
+  return mapper.rejected();
+}
+
+TEST(LineMapper, RejectsALineSeenFromOneDirectionAlone) {
+  LineMapperParameters parameters;
+  parameters.max_sigma = 100.0;
+  const auto exact = [](const Eigen::Isometry3d& pose, std::uint32_t age) {
+    return seen(kStart, kEnd, pose, age);
+  };
+  constexpr double kShare = 0.1;  // the two outermost viewing planes are about 1 degree apart
+  EXPECT_EQ(rejectedOf(parameters, kShare, exact, 0).parallax, 1U);
+  parameters.min_parallax = 0.3;
+  EXPECT_EQ(rejectedOf(parameters, kShare, exact, 1).parallax, 0U);
+}
+
+TEST(LineMapper, RejectsALineThatIsNotSureEnough) {
+  LineMapperParameters parameters;
+  const auto vague = [](const Eigen::Isometry3d& pose, std::uint32_t age) {
+    TrackedLine line = seen(kStart, kEnd, pose, age);
+    line.sigma_px = 10.0F;
+    return line;
+  };
+  EXPECT_EQ(rejectedOf(parameters, 1.0, vague, 0).sigma, 1U);
+  parameters.max_sigma = 100.0;
+  EXPECT_EQ(rejectedOf(parameters, 1.0, vague, 1).sigma, 0U);
+}
+
+TEST(LineMapper, RejectsALineBehindTheCameraOrTooFarAway) {
+  LineMapperParameters parameters = independentViews();
+  // The projection of a point behind the camera is that of one before it.
+  const auto behind = [](const Eigen::Isometry3d& pose, std::uint32_t age) {
+    const Eigen::Vector3d back(0.0, 0.0, -7.0);
+    return seen(kStart + back, kEnd + back, pose, age);
+  };
+  EXPECT_EQ(rejectedOf(parameters, 1.0, behind, 0).ends, 1U);
+  const auto exact = [](const Eigen::Isometry3d& pose, std::uint32_t age) {
+    return seen(kStart, kEnd, pose, age);
+  };
+  EXPECT_EQ(rejectedOf(parameters, 1.0, exact, 1).ends, 0U);
+  parameters.max_distance = 2.5;
+  EXPECT_EQ(rejectedOf(parameters, 1.0, exact, 0).ends, 1U);
+}
+
+/// Deviation of the start of the line of 100 views.
+double sigmaWith(const LineMapperParameters& parameters) {
+  LineMapper mapper(parameters);
+  for (int i = 0; i < 100; ++i) {
+    mapper.add(frameOf(i, {seen(kStart, kEnd, poseAt(i), static_cast<std::uint32_t>(i) + 1)}), poseAt(i));
+  }
+  const auto lines = mapper.lines();
+  EXPECT_EQ(lines.size(), 1U);
+  return lines.empty() ? 0.0 : lines[0].sigma_start;
+}
+
+TEST(LineMapper, CountsImagesInARowThatErrAlikeAsOne) {
+  LineMapperParameters parameters = independentViews();
+  parameters.max_views = 1000;
+  const double independent = sigmaWith(parameters);
+  parameters.correlated_views = 4.0;
+  EXPECT_NEAR(sigmaWith(parameters), 2.0 * independent, 1e-6 * independent);
+  parameters.correlated_views = 1000.0;
+  EXPECT_NEAR(sigmaWith(parameters), 10.0 * independent, 1e-6 * independent)
+      << "a hundred views are never less than one";
+}
+
+TEST(LineMapper, AddsItsFloorToTheSigmaOfTheTracker) {
+  LineMapperParameters parameters = independentViews();
+  parameters.sigma_floor = 0.0;
+  const double bare = sigmaWith(parameters);
+  parameters.sigma_floor = 0.4;  // beside the 0.3 px of seen()
+  EXPECT_NEAR(sigmaWith(parameters), 5.0 / 3.0 * bare, 1e-4 * bare);
+}
+
+TEST(LineMapper, KeepsAFewViewsSpreadOverTheLife) {
+  LineMapperParameters parameters = independentViews();
+  parameters.max_views = 1000;
+  const double all = sigmaWith(parameters);
+  parameters.max_views = 8;
+  // 4 to 8 of a hundred, and the last.
+  EXPECT_GT(sigmaWith(parameters), 2.5 * all);
+}
+
+TEST(LineMapper, EndsTracksWhereANewEpochBegins) {
+  LineMapper mapper(independentViews());
+  const Eigen::Vector3d up(0.0, 0.5, 0.0);
+  for (int i = 0; i < 40; ++i) {
+    const Eigen::Vector3d shift = i < 20 ? Eigen::Vector3d::Zero().eval() : up;
+    LineFrame frame =
+        frameOf(i, {seen(kStart + shift, kEnd + shift, poseAt(i), static_cast<std::uint32_t>(i) + 1)});
+    frame.epoch = i < 20 ? 0 : 1;
+    mapper.add(frame, poseAt(i));
+  }
+  const auto lines = mapper.lines();
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[0].views, 20);
+  EXPECT_EQ(lines[1].epoch, 1U);
+  EXPECT_LT((lines[1].start - kStart - up).norm(), 1e-5);
+}
+
 TEST(LineMapper, KnowsATrackerThatStartedAgainWithTheSameNumbers) {
   LineMapper mapper(independentViews());
   for (int i = 0; i < 20; ++i) {
