@@ -5,7 +5,7 @@
 #
 # RESULTS: folder for bags and tables. A step that is done is not done again: after an interruption, start the same command
 # again; results of another commit are refused. STEP: only these, of tracking, tracking_3, priors, still, motion, lens, effects,
-# methods, real, map, paper, speed, contract and vio (a step where TET_PL_VINS names a checkout of PL-VINS). --short: flights of 2 s,
+# distractors, methods, real, map, paper, speed, contract and vio (a step where TET_PL_VINS names a checkout of PL-VINS). --short: flights of 2 s,
 # to try the command; speed takes as long as ever. All of it takes in the order of an hour on two processors, vio as long again; the
 # list at the end has the minutes of each step. The times of methods, speed, paper and vio count only where nothing else runs.
 set -euo pipefail
@@ -36,7 +36,7 @@ for dataset in euroc:euroc_v1_01/mav0 icl_nuim:icl_nuim_of_kt0 tum:tum_fr3_struc
 done
 
 folder=$(printf %q "$results")
-steps=(tracking tracking_3 priors still motion lens effects methods real map paper speed contract)
+steps=(tracking tracking_3 priors still motion lens effects distractors methods real map paper speed contract)
 if [ -n "${TET_PL_VINS:-}" ]; then steps+=(vio); fi
 declare -A pages=(
   [tracking]="docs/benchmarks/tracking.md, Every regime and Part by part"
@@ -46,6 +46,7 @@ declare -A pages=(
   [motion]="docs/benchmarks/motion.md"
   [lens]="docs/benchmarks/lens.md"
   [effects]="docs/benchmarks/effects.md"
+  [distractors]="docs/benchmarks/distractors.md"
   [methods]="docs/benchmarks/methods.md"
   [real]="docs/benchmarks/real.md"
   [map]="docs/vio.md, How good a map the tracks give"
@@ -61,6 +62,7 @@ declare -A commands=(
   [motion]="scripts/measure_motion.sh $folder/motion '1001 1002' $(seconds 20)"
   [lens]="scripts/measure_lens.sh $folder/lens 1001 $(seconds 10)"
   [effects]="scripts/measure_effects.sh $folder/effects 1001 $(seconds 6)"
+  [distractors]="scripts/measure_distractors.sh $folder/distractors 1001 $(seconds 6)"
   [methods]="scripts/measure_methods.sh $folder/methods 1001 $(seconds 10)"
   [real]="scripts/measure_real.sh $folder/real"
   [map]="scripts/measure_map.sh $folder/map 1001 $(seconds 40)"

@@ -13,21 +13,6 @@ seconds=${arguments[1]:-8}
 requireSeeds "${seeds[@]}"
 prepareTools
 
-effects=(none response sharpening jpeg vignette hot_pixels defocus skewed_blur rolling_shutter all)
-for tracker in tet lsd_lbd_knn; do
-  tracked=()
-  for motion in slow fast; do
-    for effect in "${effects[@]}"; do
-      for seed in "${seeds[@]}"; do
-        flight=$results/$motion-$effect-$seed.bag
-        simulate "$flight" "$seed" --motion $motion --camera-effects "$effect" --seconds "$seconds"
-        lines=${flight%.bag}-$tracker.bag
-        "$tools/track_bag" "$flight" "$lines" --tracker $tracker >"${lines%.bag}.txt"
-        tracked+=("$lines")
-      done
-    done
-  done
-  heading "$tracker"
-  "$tools/evaluate_tracks" --absolute --csv "$results/$tracker.csv" "${tracked[@]}"
-done | tee "$results/evaluation.txt"
+trackWith --absolute --camera-effects none response sharpening jpeg vignette hot_pixels defocus skewed_blur rolling_shutter all |
+  tee "$results/evaluation.txt"
 scripts/effects_table.py "tet=$results/tet.csv" "lsd_lbd_knn=$results/lsd_lbd_knn.csv" | tee "$results/tables.md"

@@ -51,3 +51,25 @@ simulate() {
   "$tools/simulate_bag" "$1" "${options[@]}" </dev/null
   echo "${options[*]}" >"$made"
 }
+
+# trackWith JUDGE OPTION VALUES...: slow and fast flights with each value of an option of simulate_bag, for `seeds` and `seconds`,
+# tracked by tet and lsd_lbd_knn. JUDGE: option of evaluate_tracks, whose tables are printed and left in TRACKER.csv.
+trackWith() {
+  local tracker motion value seed flight lines tracked
+  for tracker in tet lsd_lbd_knn; do
+    tracked=()
+    for motion in slow fast; do
+      for value in "${@:3}"; do
+        for seed in "${seeds[@]}"; do
+          flight=$results/$motion-$value-$seed.bag
+          simulate "$flight" "$seed" --motion $motion "$2" "$value" --seconds "$seconds"
+          lines=${flight%.bag}-$tracker.bag
+          "$tools/track_bag" "$flight" "$lines" --tracker $tracker >"${lines%.bag}.txt"
+          tracked+=("$lines")
+        done
+      done
+    done
+    heading "$tracker"
+    "$tools/evaluate_tracks" "$1" --csv "$results/$tracker.csv" "${tracked[@]}"
+  done
+}

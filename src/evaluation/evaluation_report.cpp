@@ -97,6 +97,24 @@ Values absoluteValuesOf(const AbsoluteMeasures& absolute) {
   return values;
 }
 
+/// The same for what lines are on.
+Values surfaceValuesOf(const std::vector<SurfaceMeasures>& surfaces) {
+  Values values;
+  for (int i = 0; i < kSurfaceKinds; ++i) {
+    SurfaceMeasures measures;
+    for (const SurfaceMeasures& m : surfaces) {
+      if (m.kind == static_cast<SurfaceKind>(i)) measures = m;
+    }
+    const std::string prefix = std::string("surface_") + nameOf(static_cast<SurfaceKind>(i)) + "_";
+    const Values rest{{"tracks", static_cast<double>(measures.tracks)},
+                      {"line_share", measures.line_share},
+                      {"track_length", measures.track_length},
+                      {"inlier_ratio_2px", measures.inlier_ratio}};
+    for (const auto& [name, value] : rest) values.emplace_back(prefix + name, value);
+  }
+  return values;
+}
+
 std::string number(double value, const char* format, const char* unknown) {
   if (!std::isfinite(value)) return unknown;
   char text[64];
@@ -233,24 +251,44 @@ void writeAbsoluteText(std::ostream& out, const std::vector<EvaluatedBag>& bags)
   }
 }
 
-void writeCsv(std::ostream& out, const std::vector<EvaluatedBag>& bags) {
-  const bool absolute =
-      std::any_of(bags.begin(), bags.end(), [](const EvaluatedBag& bag) { return bag.absolute.has_value(); });
-  out << "bag,truth";
-  for (const auto& value : valuesOf({}, {})) out << "," << value.first;
-  if (absolute) {
-    for (const auto& value : absoluteValuesOf({})) out << "," << value.first;
+void writeSurfaceText(std::ostream& out, const std::vector<EvaluatedBag>& bags) {
+  const std::size_t width = nameWidth(bags);
+  writeRow(out, "bag", width, {"surface", "lines%", "tracks", "length", "<2px%"});
+  for (const EvaluatedBag& bag : bags) {
+    if (bag.surfaces.empty()) writeRow(out, bag.name, width, {"      -", "-", "-", "-", "-"});
+    for (const SurfaceMeasures& m : bag.surfaces) {
+      if (m.tracks == 0) continue;
+      const std::string kind = nameOf(m.kind);
+      writeRow(
+          out, bag.name, width,
+          {std::string(7 - kind.size(), ' ') + kind, cell(100.0 * m.line_share, "%.1f"),
+           std::to_string(m.tracks), cell(m.track_length, "%.1f"), cell(100.0 * m.inlier_ratio, "%.2f")});
+    }
   }
+}
+
+void writeCsv(std::ostream& out, const std::vector<EvaluatedBag>& bags) {
+  const auto any = [&](const auto& has) { return std::any_of(bags.begin(), bags.end(), has); };
+  const bool absolute = any([](const EvaluatedBag& bag) { return bag.absolute.has_value(); });
+  const bool surfaces = any([](const EvaluatedBag& bag) { return !bag.surfaces.empty(); });
+  const auto writeNames = [&](const Values& values) {
+    for (const auto& value : values) out << "," << value.first;
+  };
+  const auto writeValues = [&](const Values& values, bool known) {
+    for (const auto& value : values) out << "," << (known ? number(value.second, "%.9g", "") : "");
+  };
+  out << "bag,truth";
+  writeNames(valuesOf({}, {}));
+  if (absolute) writeNames(absoluteValuesOf({}));
+  if (surfaces) writeNames(surfaceValuesOf({}));
   out << "\n";
   for (const EvaluatedBag& bag : bags) {
     out << quoted(bag.name) << "," << bag.truth;
-    for (const auto& value : valuesOf(bag.measures, bag.three_view))
-      out << "," << number(value.second, "%.9g", "");
+    writeValues(valuesOf(bag.measures, bag.three_view), true);
     if (absolute) {
-      for (const auto& value : absoluteValuesOf(bag.absolute.value_or(AbsoluteMeasures()))) {
-        out << "," << (bag.absolute ? number(value.second, "%.9g", "") : "");
-      }
+      writeValues(absoluteValuesOf(bag.absolute.value_or(AbsoluteMeasures())), bag.absolute.has_value());
     }
+    if (surfaces) writeValues(surfaceValuesOf(bag.surfaces), !bag.surfaces.empty());
     out << "\n";
   }
 }
@@ -259,14 +297,14 @@ void writeJson(std::ostream& out, const std::vector<EvaluatedBag>& bags, bool wi
   writeArray(out, bags, [&](const EvaluatedBag& bag) {
     const TrackMeasures& m = bag.measures;
     out << "{\"bag\": " << quoted(bag.name) << ", \"truth\": " << quoted(bag.truth);
-    for (const auto& [name, value] : valuesOf(m, bag.three_view)) {
-      out << ",\n  " << quoted(name) << ": " << number(value, "%.9g", "null");
-    }
-    if (bag.absolute) {
-      for (const auto& [name, value] : absoluteValuesOf(*bag.absolute)) {
+    const auto writeValues = [&](const Values& values) {
+      for (const auto& [name, value] : values) {
         out << ",\n  " << quoted(name) << ": " << number(value, "%.9g", "null");
       }
-    }
+    };
+    writeValues(valuesOf(m, bag.three_view));
+    if (bag.absolute) writeValues(absoluteValuesOf(*bag.absolute));
+    if (!bag.surfaces.empty()) writeValues(surfaceValuesOf(bag.surfaces));
     out << ",\n  \"error_histogram\": ";
     writeHistogram(out, m.pairs);
     out << ",\n  \"survival_in_view\": ";

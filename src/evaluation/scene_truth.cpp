@@ -68,6 +68,36 @@ bool SceneTruth::hidden(const Eigen::Vector3d& from, const Eigen::Vector3d& to, 
   });
 }
 
+std::array<std::optional<RayHit>, 2> SceneTruth::hitsBeside(const Eigen::Isometry3d& world_from_camera,
+                                                            std::int64_t stamp_ns,
+                                                            const Eigen::Vector2d& pixel,
+                                                            const Eigen::Vector2d& normal) const {
+  const auto hitOn = [&](double side) -> std::optional<RayHit> {
+    const auto ray = camera_->unproject(pixel + side * kBesideLine * normal);
+    if (!ray) return std::nullopt;
+    return scene_.raycast(world_from_camera.translation(), world_from_camera.linear() * *ray, stamp_ns);
+  };
+  return {hitOn(-1.0), hitOn(1.0)};
+}
+
+std::optional<SurfaceKind> SceneTruth::kindAt(std::int64_t stamp_ns, const Eigen::Vector2d& pixel,
+                                              const Eigen::Vector2d& normal) const {
+  const auto pose = world_from_camera_.at(stamp_ns);
+  if (!pose) return std::nullopt;
+  const auto [first, second] = hitsBeside(*pose, stamp_ns, pixel, normal);
+  if (!first && !second) return std::nullopt;
+  const auto kindOf = [&](const RayHit& hit) {
+    return scene_.rectangles()[static_cast<std::size_t>(hit.point.surface)].kind;
+  };
+  const bool first_is_nearer = first && (!second || first->distance < second->distance);
+  const SurfaceKind kind = kindOf(first_is_nearer ? *first : *second);
+  const bool same = first && second && kindOf(*first) == kindOf(*second);
+  const bool within = kind == SurfaceKind::kMirror || kind == SurfaceKind::kScreen;
+  if (within && !same) return SurfaceKind::kSolid;
+  if (kind == SurfaceKind::kRound && same) return SurfaceKind::kSolid;
+  return kind;
+}
+
 std::optional<WorldPoint> SceneTruth::lift(std::int64_t stamp_ns, const Eigen::Vector2d& pixel,
                                            const Eigen::Vector2d& normal) const {
   const auto pose = world_from_camera_.at(stamp_ns);
@@ -75,10 +105,7 @@ std::optional<WorldPoint> SceneTruth::lift(std::int64_t stamp_ns, const Eigen::V
   if (!pose || !ray_in_camera) return std::nullopt;
 
   std::optional<RayHit> nearer;
-  for (const double side : {-kBesideLine, kBesideLine}) {
-    const auto ray = camera_->unproject(pixel + side * normal);
-    if (!ray) continue;
-    const auto hit = scene_.raycast(pose->translation(), pose->linear() * *ray, stamp_ns);
+  for (const auto& hit : hitsBeside(*pose, stamp_ns, pixel, normal)) {
     if (hit && (!nearer || hit->distance < nearer->distance)) nearer = hit;
   }
   if (!nearer) return std::nullopt;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -22,6 +23,11 @@ class SceneTruth : public Truth {
                                  const Eigen::Vector2d& normal) const override;
   std::optional<PointView> view(const WorldPoint& point, std::int64_t stamp_ns) const override;
 
+  /// What a line shows at a pixel. On a mirror or a screen when both sides are on it; on something round when
+  /// the line is its outline, not painted on it. Nothing where no surface is known.
+  std::optional<SurfaceKind> kindAt(std::int64_t stamp_ns, const Eigen::Vector2d& pixel,
+                                    const Eigen::Vector2d& normal) const;
+
   const std::vector<TrueEdge>& edges() const { return scene_.edges(); }
   std::optional<Eigen::Isometry3d> worldFromCamera(std::int64_t stamp_ns) const {
     return world_from_camera_.at(stamp_ns);
@@ -35,6 +41,10 @@ class SceneTruth : public Truth {
     Eigen::Vector3d corner, normal;
     Eigen::Vector3d across, up;  ///< times the offset from the corner: 0..1 inside
   };
+  /// What is seen beside a line, on either side of it.
+  std::array<std::optional<RayHit>, 2> hitsBeside(const Eigen::Isometry3d& world_from_camera,
+                                                  std::int64_t stamp_ns, const Eigen::Vector2d& pixel,
+                                                  const Eigen::Vector2d& normal) const;
   Screen screenOf(std::size_t rectangle, std::int64_t stamp_ns) const;
   static bool standsInTheWay(const Screen& screen, const Eigen::Vector3d& from, const Eigen::Vector3d& way,
                              double until);

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "counter_random.h"
+#include "named_flags.h"
 
 namespace tet_line_tracker {
 namespace {
@@ -22,18 +21,15 @@ constexpr double kSharpeningSigma = 1.0;  // [px]
 constexpr float kSharpening = 0.8F;       // of the difference from the blurred picture
 constexpr int kJpegQuality = 50;
 
-struct Effect {
-  const char* name;
-  bool CameraEffects::*on;
-};
-constexpr std::array<Effect, 8> kEffects{{{"response", &CameraEffects::response},
-                                          {"sharpening", &CameraEffects::sharpening},
-                                          {"jpeg", &CameraEffects::jpeg},
-                                          {"vignette", &CameraEffects::vignette},
-                                          {"hot_pixels", &CameraEffects::hot_pixels},
-                                          {"defocus", &CameraEffects::defocus},
-                                          {"skewed_blur", &CameraEffects::skewed_blur},
-                                          {"rolling_shutter", &CameraEffects::rolling_shutter}}};
+constexpr std::array<NamedFlag<CameraEffects>, 8> kEffects{
+    {{"response", &CameraEffects::response},
+     {"sharpening", &CameraEffects::sharpening},
+     {"jpeg", &CameraEffects::jpeg},
+     {"vignette", &CameraEffects::vignette},
+     {"hot_pixels", &CameraEffects::hot_pixels},
+     {"defocus", &CameraEffects::defocus},
+     {"skewed_blur", &CameraEffects::skewed_blur},
+     {"rolling_shutter", &CameraEffects::rolling_shutter}}};
 
 void stickPixels(cv::Mat& gray, std::uint64_t camera_seed) {
   for (int y = 0; y < gray.rows; ++y) {
@@ -56,36 +52,15 @@ float respond(float gray) {
 }  // namespace
 
 std::string CameraEffects::text() const {
-  std::string list;
-  for (const Effect& effect : kEffects) {
-    if (this->*effect.on) list.append(list.empty() ? "" : ",").append(effect.name);
-  }
-  return list.empty() ? "none" : list;
+  return flagText(kEffects, *this);
 }
 
 std::vector<std::string> cameraEffectNames() {
-  std::vector<std::string> names;
-  names.reserve(kEffects.size());
-  for (const Effect& effect : kEffects) names.emplace_back(effect.name);
-  return names;
+  return flagNames(kEffects);
 }
 
 CameraEffects parseCameraEffects(const std::string& text) {
-  CameraEffects effects;
-  std::istringstream in(text);
-  std::string word;
-  while (std::getline(in, word, ',')) {
-    bool known = word == "none" || word == "all";
-    for (const Effect& effect : kEffects) {
-      if (word != effect.name && word != "all") continue;
-      effects.*effect.on = known = true;
-    }
-    if (known) continue;
-    std::string message = "camera effect \"" + word + "\" is not known; known: none, all";
-    for (const Effect& effect : kEffects) message.append(", ").append(effect.name);
-    throw std::invalid_argument(message);
-  }
-  return effects;
+  return parseFlags(kEffects, "camera effect", text);
 }
 
 void addTail(cv::Mat& light) {

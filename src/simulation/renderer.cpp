@@ -147,12 +147,12 @@ void Renderer::parallel(std::size_t count, const std::function<void(std::size_t)
   for (std::thread& helper : helpers) helper.join();
 }
 
-std::vector<Renderer::SeenRectangle> Renderer::see(const View& view) const {
+std::vector<Renderer::SeenRectangle> Renderer::see(const Eigen::Isometry3d& camera_from_world,
+                                                   std::int64_t stamp_ns) const {
   const SceneGeometry& geometry = world_.geometry;
-  const Eigen::Isometry3d camera_from_world = view.world_from_camera.inverse();
   std::vector<Eigen::Isometry3d> camera_from_body;
   for (const MovingBody& body : geometry.bodies()) {
-    camera_from_body.push_back(camera_from_world * body.worldFromBody(view.stamp_ns));
+    camera_from_body.push_back(camera_from_world * body.worldFromBody(stamp_ns));
   }
   std::vector<SeenRectangle> all;
   all.reserve(geometry.rectangles().size());
@@ -210,13 +210,16 @@ std::vector<const Renderer::SeenRectangle*> Renderer::candidates(
   return result;
 }
 
-int Renderer::nearest(const std::vector<const SeenRectangle*>& candidates, const Eigen::Vector3f& ray) {
+int Renderer::nearest(const std::vector<const SeenRectangle*>& candidates, const SeenRectangle* mirror,
+                      const Eigen::Vector3f& ray) {
+  const float limit =
+      mirror == nullptr ? std::numeric_limits<float>::infinity() : mirror->inverse_depth.dot(ray);
   int best = kNothing;
   float best_inverse = 0.0F;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const SeenRectangle& seen = *candidates[i];
     const float inverse = seen.inverse_depth.dot(ray);
-    if (!(inverse > best_inverse)) continue;
+    if (!(inverse > best_inverse && inverse < limit)) continue;
     const float distance = 1.0F / inverse;
     const float u = seen.u + distance * seen.u_axis.dot(ray);
     if (!(u >= 0.0F && u <= seen.width)) continue;
@@ -228,7 +231,8 @@ int Renderer::nearest(const std::vector<const SeenRectangle*>& candidates, const
   return best;
 }
 
-float Renderer::shade(const SeenRectangle& seen, const Eigen::Vector3f& ray, const PixelRay& pixel) const {
+float Renderer::shade(const Pass& pass, const SeenRectangle& seen, const Eigen::Vector3f& ray,
+                      const cv::Point& pixel) const {
   const float distance = 1.0F / seen.inverse_depth.dot(ray);
   const float along_u = seen.u_axis.dot(ray);
   const float along_v = seen.v_axis.dot(ray);
@@ -237,17 +241,25 @@ float Renderer::shade(const SeenRectangle& seen, const Eigen::Vector3f& ray, con
     return Eigen::Vector2f(distance * seen.u_axis.dot(step) + farther * along_u,
                            distance * seen.v_axis.dot(step) + farther * along_v);
   };
-  const Eigen::Vector2f per_x = footprint(pixel.per_x);
-  const Eigen::Vector2f per_y = footprint(pixel.per_y);
+  const Eigen::Vector2f per_x = footprint(rayAt(pixel).per_x);
+  const Eigen::Vector2f per_y = footprint(rayAt(pixel).per_y);
   const float u = std::min(std::max(seen.u + distance * along_u, 0.0F), seen.width);
   const float v = std::min(std::max(seen.v + distance * along_v, 0.0F), seen.height);
-  return world_.textures[static_cast<std::size_t>(seen.surface)].gray(u, v, {per_x.x(), per_y.x()},
-                                                                      {per_x.y(), per_y.y()});
+  float gray = world_.textureAt(seen.surface, pass.stamp_ns)
+                   .gray(u, v, {per_x.x(), per_y.x()}, {per_x.y(), per_y.y()});
+  for (const Reflection& reflection : pass.reflections) {
+    if (reflection.surface == seen.surface) gray += reflection.share * (reflection.radiance(pixel) - gray);
+  }
+  return gray;
 }
 
-float Renderer::shadeOutline(const std::vector<const SeenRectangle*>& candidates, const PixelRay& pixel,
-                             std::size_t views) const {
-  const OutlineLattice lattice = outlineLattice(views);
+float Renderer::shadeOutline(const Pass& pass, const std::vector<const SeenRectangle*>& candidates,
+                             const cv::Point& pixel) const {
+  const OutlineLattice lattice = outlineLattice(pass.views);
+  const auto rayTo = [&](const Eigen::Vector2f& offset) -> Eigen::Vector3f {
+    const PixelRay& middle = rayAt(pixel);
+    return middle.ray + offset.x() * middle.per_x + offset.y() * middle.per_y;
+  };
   struct Part {
     int candidate;
     int samples;
@@ -257,8 +269,7 @@ float Renderer::shadeOutline(const std::vector<const SeenRectangle*>& candidates
   std::size_t count = 0;
   for (int i = 0; i < lattice.samples; ++i) {
     const Eigen::Vector2f offset = lattice.offset(i);
-    const int candidate =
-        nearest(candidates, pixel.ray + offset.x() * pixel.per_x + offset.y() * pixel.per_y);
+    const int candidate = nearest(candidates, pass.mirror, rayTo(offset));
     if (candidate == kNothing) continue;
     std::size_t k = 0;
     while (k < count && parts[k].candidate != candidate) ++k;
@@ -269,17 +280,16 @@ float Renderer::shadeOutline(const std::vector<const SeenRectangle*>& candidates
   float gray = 0.0F;
   for (std::size_t k = 0; k < count; ++k) {
     const auto samples = static_cast<float>(parts[k].samples);
-    const Eigen::Vector2f offset = parts[k].sum / samples;
-    const Eigen::Vector3f ray = pixel.ray + offset.x() * pixel.per_x + offset.y() * pixel.per_y;
-    gray += samples * shade(*candidates[static_cast<std::size_t>(parts[k].candidate)], ray, pixel);
+    const SeenRectangle& seen = *candidates[static_cast<std::size_t>(parts[k].candidate)];
+    gray += samples * shade(pass, seen, rayTo(parts[k].sum / samples), pixel);
   }
   return gray / static_cast<float>(lattice.samples);
 }
 
-bool Renderer::onOutline(int x, int y) const {
-  const int own = surface_(y, x);
-  for (int j = std::max(0, y - 1); j <= std::min(size_.height - 1, y + 1); ++j) {
-    for (int i = std::max(0, x - 1); i <= std::min(size_.width - 1, x + 1); ++i) {
+bool Renderer::onOutline(const cv::Point& pixel) const {
+  const int own = surface_(pixel);
+  for (int j = std::max(0, pixel.y - 1); j <= std::min(size_.height - 1, pixel.y + 1); ++j) {
+    for (int i = std::max(0, pixel.x - 1); i <= std::min(size_.width - 1, pixel.x + 1); ++i) {
       if (surface_(j, i) != own) return true;
     }
   }
@@ -289,57 +299,84 @@ bool Renderer::onOutline(int x, int y) const {
 cv::Mat Renderer::render(const std::vector<View>& views, const cv::Range& rows) {
   cv::Mat_<float> radiance(size_, 0.0F);
   const float share = 1.0F / static_cast<float>(views.size());
+  for (const View& view : views) render(makePass(view, views, rows), share, radiance);
+  return std::move(radiance);
+}
+
+Renderer::Pass Renderer::makePass(const View& view, const std::vector<View>& views, const cv::Range& rows) {
+  const Eigen::Isometry3d camera_from_world = view.world_from_camera.inverse();
+  Pass pass{see(camera_from_world, view.stamp_ns), view.stamp_ns, nullptr, {}, views.size(), rows};
+  for (const Mirror& mirror : world_.mirrors) {
+    const auto isMirror = [&](const SeenRectangle& seen) { return seen.surface == mirror.surface; };
+    const auto seen = std::find_if(pass.rectangles.begin(), pass.rectangles.end(), isMirror);
+    if (seen == pass.rectangles.end()) continue;
+    // All that is mirrored at its plane, seen by the same camera.
+    const Rectangle& plane = world_.geometry.rectangles()[static_cast<std::size_t>(mirror.surface)];
+    const Eigen::Vector3d normal = plane.u_axis.cross(plane.v_axis);
+    Eigen::Isometry3d reflection = Eigen::Isometry3d::Identity();
+    reflection.linear() -= 2.0 * normal * normal.transpose();
+    reflection.translation() = 2.0 * normal.dot(plane.origin) * normal;
+    Pass mirrored{
+        see(camera_from_world * reflection, view.stamp_ns), view.stamp_ns, &*seen, {}, views.size(), rows};
+    mirrored.rectangles.erase(
+        std::remove_if(mirrored.rectangles.begin(), mirrored.rectangles.end(), isMirror),
+        mirrored.rectangles.end());
+    cv::Mat_<float> radiance(size_, 0.0F);
+    render(mirrored, 1.0F, radiance);
+    pass.reflections.push_back({mirror.surface, mirror.share, radiance});
+  }
+  return pass;
+}
+
+void Renderer::render(const Pass& pass, float share, cv::Mat_<float>& radiance) {
   // Whether a pixel is on an outline, its neighbours tell.
   constexpr int kNeighbours = 2;
   const auto isWanted = [&](std::size_t number) {
     const cv::Rect& area = tiles_[number].pixels;
-    return rows == cv::Range::all() ||
-           (area.y < rows.end + kNeighbours && area.y + area.height > rows.start - kNeighbours);
+    if (pass.mirror != nullptr && within(tiles_[number], {pass.mirror}).empty()) return false;
+    return pass.rows == cv::Range::all() ||
+           (area.y < pass.rows.end + kNeighbours && area.y + area.height > pass.rows.start - kNeighbours);
   };
-  for (const View& view : views) {
-    const std::vector<SeenRectangle> rectangles = see(view);
-    std::vector<const SeenRectangle*> seen;
-    seen.reserve(rectangles.size());
-    for (const SeenRectangle& rectangle : rectangles) seen.push_back(&rectangle);
-    std::vector<std::vector<const SeenRectangle*>> block_candidates(blocks_.size());
-    parallel(blocks_.size(), [&](std::size_t i) { block_candidates[i] = within(blocks_[i], seen); });
-    std::vector<std::vector<const SeenRectangle*>> tile_candidates(tiles_.size());
-    const auto forEachPixel = [&](std::size_t number, const auto& body) {
-      const cv::Rect& area = tiles_[number].pixels;
-      for (int y = area.y; y < area.y + area.height; ++y) {
-        for (int x = area.x; x < area.x + area.width; ++x) body(x, y, rayAt(x, y));
+  std::vector<const SeenRectangle*> seen;
+  seen.reserve(pass.rectangles.size());
+  for (const SeenRectangle& rectangle : pass.rectangles) seen.push_back(&rectangle);
+  std::vector<std::vector<const SeenRectangle*>> block_candidates(blocks_.size());
+  parallel(blocks_.size(), [&](std::size_t i) { block_candidates[i] = within(blocks_[i], seen); });
+  std::vector<std::vector<const SeenRectangle*>> tile_candidates(tiles_.size());
+  const auto forEachPixel = [&](std::size_t number, const auto& body) {
+    const cv::Rect& area = tiles_[number].pixels;
+    for (int y = area.y; y < area.y + area.height; ++y) {
+      for (int x = area.x; x < area.x + area.width; ++x) body(cv::Point(x, y));
+    }
+  };
+  surface_ = kNothing;
+  parallelTiles([&](std::size_t number) {
+    if (!isWanted(number)) return;
+    tile_candidates[number] = candidates(tiles_[number], block_candidates[block_of_[number]]);
+    const auto& near = tile_candidates[number];
+    forEachPixel(number, [&](const cv::Point& pixel) {
+      const int candidate = nearest(near, pass.mirror, rayAt(pixel).ray);
+      surface_(pixel) = candidate == kNothing ? kNothing : near[static_cast<std::size_t>(candidate)]->surface;
+    });
+  });
+  parallelTiles([&](std::size_t number) {
+    if (!isWanted(number)) return;
+    const auto& near = tile_candidates[number];
+    const SeenRectangle* last = nullptr;
+    forEachPixel(number, [&](const cv::Point& pixel) {
+      if (onOutline(pixel)) {
+        radiance(pixel) += share * shadeOutline(pass, near, pixel);
+        return;
       }
-    };
-    parallelTiles([&](std::size_t number) {
-      if (!isWanted(number)) return;
-      tile_candidates[number] = candidates(tiles_[number], block_candidates[block_of_[number]]);
-      const auto& near = tile_candidates[number];
-      forEachPixel(number, [&](int x, int y, const PixelRay& pixel) {
-        const int candidate = nearest(near, pixel.ray);
-        surface_(y, x) =
-            candidate == kNothing ? kNothing : near[static_cast<std::size_t>(candidate)]->surface;
-      });
+      const int surface = surface_(pixel);
+      if (surface == kNothing) return;
+      if (last == nullptr || last->surface != surface) {
+        last = *std::find_if(near.begin(), near.end(),
+                             [&](const SeenRectangle* s) { return s->surface == surface; });
+      }
+      radiance(pixel) += share * shade(pass, *last, rayAt(pixel).ray, pixel);
     });
-    parallelTiles([&](std::size_t number) {
-      if (!isWanted(number)) return;
-      const auto& near = tile_candidates[number];
-      const SeenRectangle* last = nullptr;
-      forEachPixel(number, [&](int x, int y, const PixelRay& pixel) {
-        if (onOutline(x, y)) {
-          radiance(y, x) += share * shadeOutline(near, pixel, views.size());
-          return;
-        }
-        const int surface = surface_(y, x);
-        if (surface == kNothing) return;
-        if (last == nullptr || last->surface != surface) {
-          last = *std::find_if(near.begin(), near.end(),
-                               [&](const SeenRectangle* s) { return s->surface == surface; });
-        }
-        radiance(y, x) += share * shade(*last, pixel.ray, pixel);
-      });
-    });
-  }
-  return std::move(radiance);
+  });
 }
 
 }  // namespace tet_line_tracker

@@ -21,8 +21,8 @@ struct View {
 };
 
 /// Renders a world through a camera model by casting a ray per pixel. Textures are averaged over the pixel's
-/// footprint on them; pixels on an outline are sampled many times. The result does not depend on the number
-/// of threads.
+/// footprint on them; pixels on an outline are sampled many times. Mirrors show the world once: a mirror in a
+/// mirror has its texture alone. The result does not depend on the number of threads.
 class Renderer {
  public:
   /// The world must outlive the renderer. The camera's calibration must say its size. Throws
@@ -57,6 +57,22 @@ class Renderer {
     std::array<double, 4> distances;  // of the corners
   };
 
+  struct Reflection {
+    int surface;
+    float share;
+    cv::Mat_<float> radiance;  // where the mirror is
+  };
+  /// What is rendered in one go: the world, or what a mirror shows of it.
+  struct Pass {
+    std::vector<SeenRectangle> rectangles;
+    std::int64_t stamp_ns;
+    const SeenRectangle* mirror{nullptr};  // what lies beyond its plane is rendered, where it is seen
+    std::vector<Reflection> reflections;
+    std::size_t views;  // of the image
+    cv::Range rows;
+  };
+
+  const PixelRay& rayAt(const cv::Point& pixel) const { return rayAt(pixel.x, pixel.y); }
   const PixelRay& rayAt(int x, int y) const {
     return rays_[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width) +
                  static_cast<std::size_t>(x)];
@@ -66,19 +82,25 @@ class Renderer {
   void bound(Tile& tile) const;
   void parallelTiles(const std::function<void(std::size_t)>& body) const { parallel(tiles_.size(), body); }
   void parallel(std::size_t count, const std::function<void(std::size_t)>& body) const;
-  std::vector<SeenRectangle> see(const View& view) const;
+  std::vector<SeenRectangle> see(const Eigen::Isometry3d& camera_from_world, std::int64_t stamp_ns) const;
+  Pass makePass(const View& view, const std::vector<View>& views, const cv::Range& rows);
+  /// Adds its radiance, times `share`.
+  void render(const Pass& pass, float share, cv::Mat_<float>& radiance);
   /// Those that a tile may see.
   static std::vector<const SeenRectangle*> within(const Tile& tile,
                                                   const std::vector<const SeenRectangle*>& seen);
   /// The same, nearest first.
   static std::vector<const SeenRectangle*> candidates(const Tile& tile,
                                                       const std::vector<const SeenRectangle*>& seen);
-  /// Position in `candidates` of the nearest one, -1: none.
-  static int nearest(const std::vector<const SeenRectangle*>& candidates, const Eigen::Vector3f& ray);
-  float shade(const SeenRectangle& seen, const Eigen::Vector3f& ray, const PixelRay& pixel) const;
-  float shadeOutline(const std::vector<const SeenRectangle*>& candidates, const PixelRay& pixel,
-                     std::size_t views) const;
-  bool onOutline(int x, int y) const;
+  /// Position in `candidates` of the nearest one (beyond a mirror), -1: none.
+  static int nearest(const std::vector<const SeenRectangle*>& candidates, const SeenRectangle* mirror,
+                     const Eigen::Vector3f& ray);
+  /// Gray of a surface where `ray`, of a pixel, meets it.
+  float shade(const Pass& pass, const SeenRectangle& seen, const Eigen::Vector3f& ray,
+              const cv::Point& pixel) const;
+  float shadeOutline(const Pass& pass, const std::vector<const SeenRectangle*>& candidates,
+                     const cv::Point& pixel) const;
+  bool onOutline(const cv::Point& pixel) const;
 
   std::shared_ptr<const CameraModel> camera_;
   const World& world_;

@@ -1,5 +1,7 @@
 #include "scene_geometry.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -10,6 +12,8 @@ namespace {
 
 constexpr char kFirstLine[] = "tet_line_tracker_scene 1";
 constexpr char kLastLine[] = "end";
+constexpr std::array<const char*, kSurfaceKinds> kKindNames{"solid",  "round",  "cable", "foliage",
+                                                            "person", "mirror", "screen"};
 
 std::ostream& operator<<(std::ostream& out, const Eigen::Vector3d& v) {
   return out << v.x() << ' ' << v.y() << ' ' << v.z();
@@ -41,12 +45,26 @@ std::optional<RayHit> meet(const Rectangle& rectangle, const Eigen::Vector3d& or
   return hit;
 }
 
+/// The word at the end of a line, if there is one; nothing: it is no kind.
+std::optional<SurfaceKind> readKind(std::istream& in) {
+  if ((in >> std::ws).eof()) return SurfaceKind::kSolid;
+  std::string word;
+  in >> word;
+  const auto* const name = std::find(kKindNames.begin(), kKindNames.end(), word);
+  if (name == kKindNames.end()) return std::nullopt;
+  return static_cast<SurfaceKind>(name - kKindNames.begin());
+}
+
 [[noreturn]] void throwBadLine(std::size_t number, const std::string& line, const std::string& why) {
   throw std::runtime_error("scene text: line " + std::to_string(number) + " (\"" + line.substr(0, 60) +
                            "\") " + why);
 }
 
 }  // namespace
+
+const char* nameOf(SurfaceKind kind) {
+  return kKindNames[static_cast<std::size_t>(kind)];
+}
 
 Eigen::Isometry3d MovingBody::worldFromBody(std::int64_t stamp_ns) const {
   const double time_s = 1e-9 * static_cast<double>(stamp_ns - origin_ns);
@@ -79,7 +97,9 @@ std::string SceneGeometry::toText() const {
   }
   for (const Rectangle& r : rectangles_) {
     out << "rectangle " << r.body << ' ' << r.origin << ' ' << r.u_axis << ' ' << r.v_axis << ' ' << r.width
-        << ' ' << r.height << '\n';
+        << ' ' << r.height;
+    if (r.kind != SurfaceKind::kSolid) out << ' ' << nameOf(r.kind);
+    out << '\n';
   }
   for (const TrueEdge& e : edges_) out << "edge " << e.start << ' ' << e.end << '\n';
   out << kLastLine << '\n';
@@ -123,6 +143,12 @@ SceneGeometry SceneGeometry::fromText(const std::string& text) {
       if (!in.fail() && !allFinite(r)) throwBadLine(number, line, "needs finite numbers");
       if (r.body < -1 || r.body >= static_cast<int>(scene.bodies_.size())) {
         throwBadLine(number, line, "names a body that was not described above it");
+      }
+      if (!in.fail()) {
+        const auto surface_kind = readKind(in);
+        if (!surface_kind) throwBadLine(number, line, "ends with a word that is no kind of surface");
+        r.kind = *surface_kind;
+        in.clear();
       }
       scene.addRectangle(r);
     } else if (kind == "edge") {

@@ -26,6 +26,20 @@ struct TrueEdge {
   Eigen::Vector3d end;
 };
 
+/// What a surface is to those who look for lines. Only those on solid ones have a true edge in space.
+enum class SurfaceKind {
+  kSolid,
+  kRound,    ///< facet of a column or a pipe, whose outline slides over it
+  kCable,    ///< sags: no part of it is straight
+  kFoliage,  ///< leaves in the wind
+  kPerson,   ///< walks
+  kMirror,   ///< shows what is before it
+  kScreen,   ///< shows one picture after the other
+};
+constexpr int kSurfaceKinds = 7;
+/// One word.
+const char* nameOf(SurfaceKind kind);
+
 /// An opaque rectangle, seen from both sides, in the frame of its body.
 struct Rectangle {
   Eigen::Vector3d origin;  ///< corner at u = v = 0 [m]
@@ -34,6 +48,7 @@ struct Rectangle {
   double width{0.0};       ///< along u [m]
   double height{0.0};      ///< along v [m]
   int body{-1};            ///< index into SceneGeometry::bodies(); -1: does not move, frame is the world
+  SurfaceKind kind{SurfaceKind::kSolid};
 };
 
 /// A body that swings to and fro and turns about its own vertical, both as sines of time.
@@ -52,7 +67,7 @@ struct MovingBody {
 /// kSceneTopic. Const methods may be called from several threads.
 class SceneGeometry {
  public:
-  /// Line by line: `argument NAME VALUE` (what made the bag), `body ...`, `rectangle ...`, `edge ...`.
+  /// Line by line: `argument NAME VALUE` (what made the bag), `body ...`, `rectangle ... [KIND]`, `edge ...`.
   /// Numbers come back bit for bit.
   std::string toText() const;
   /// Throws std::runtime_error with one sentence on bad text.

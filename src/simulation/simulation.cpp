@@ -48,6 +48,7 @@ WorldOptions worldOptions(const SimulationOptions& options) {
   world.street_length = Trajectory::kDriveSpeed * options.seconds + kStreetBeyond;
   world.bare_wall = options.textureless_phase;
   world.moving_object = options.moving_object;
+  world.distractors = options.distractors;
   world.motion_origin_ns = options.first_stamp_ns;
   return world;
 }
@@ -132,6 +133,8 @@ Simulation::Simulation(const SimulationOptions& options, std::shared_ptr<const C
   geometry.addArgument("textureless_phase", onOff(options_.textureless_phase));
   const std::string effects = options_.camera_effects.text();
   if (effects != "none") geometry.addArgument("camera_effects", effects);
+  const std::string distractors = options_.distractors.text();
+  if (distractors != "none") geometry.addArgument("distractors", distractors);
 }
 
 int Simulation::imageCount() const {

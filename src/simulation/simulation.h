@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "camera_effects.h"
+#include "distractors.h"
 #include "inertial.h"
 #include "light.h"
 #include "renderer.h"
@@ -30,7 +31,8 @@ struct SimulationOptions {
   bool hand_sway{false};          ///< the camera sways with about 1 m/s^2, as in a hand
   bool textureless_phase{false};  ///< a bare wall alone in view for 1.5 s in the middle
   CameraEffects camera_effects;
-  int threads{1};  ///< for rendering
+  Distractors distractors;  ///< in scene room
+  int threads{1};           ///< for rendering
   std::int64_t first_stamp_ns{1000000000000};
 };
 

@@ -152,6 +152,8 @@ World makeRoom(const WorldOptions& options) {
   parcel(-3.2, 0.5, 0.751, 0.3);
 
   if (options.moving_object) addCrate(builder, options, {2.9, 0.0, 1.5}, {0.0, 1.6, 0.2});
+  // Last, so that the rest of the room is the same with and without.
+  addDistractors(builder, options.distractors, options.motion_origin_ns);
   World world = builder.finish();
   world.free_centre = {0.0, 0.0, 1.55};
   world.free_half_extent = {1.6, 1.2, 0.35};
@@ -258,7 +260,21 @@ World makeEmptyRoom(const WorldOptions& options) {
 
 }  // namespace
 
+const Texture& World::textureAt(int surface, std::int64_t stamp_ns) const {
+  for (const Screen& screen : screens) {
+    if (screen.surface != surface) continue;
+    const auto count = static_cast<std::int64_t>(screen.pictures.size());
+    const std::int64_t number = stamp_ns / screen.period_ns % count;
+    return screen.pictures[static_cast<std::size_t>(number < 0 ? number + count : number)];
+  }
+  return textures[static_cast<std::size_t>(surface)];
+}
+
 World makeWorld(const WorldOptions& options) {
+  if (options.scene != "room" && options.distractors.text() != "none") {
+    throw std::invalid_argument("distractors are " + options.distractors.text() + ", needs scene room, not " +
+                                options.scene);
+  }
   if (options.scene == "room") return makeRoom(options);
   if (options.scene == "corridor") return makeCorridor(options);
   if (options.scene == "empty") return makeEmptyRoom(options);

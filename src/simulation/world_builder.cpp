@@ -23,7 +23,7 @@ void WorldBuilder::addRectangle(const Rectangle& rectangle, float gray, float gr
                    static_cast<float>(random_.uniform(-0.05, 0.15)));
   if (decorate) decorate(texture);
 
-  if (rectangle.body < 0) {
+  if (rectangle.body < 0 && rectangle.kind == SurfaceKind::kSolid) {
     const auto inWorld = [&](double u, double v) -> Eigen::Vector3d {
       return rectangle.origin + u * rectangle.u_axis + v * rectangle.v_axis;
     };

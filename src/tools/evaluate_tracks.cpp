@@ -28,7 +28,7 @@ namespace tet_line_tracker {
 namespace {
 
 EvaluatedBag evaluate(const std::string& path, const std::string& lines_topic, const MeasureOptions& options,
-                      bool absolute) {
+                      bool absolute, bool surfaces) {
   rosbag::Bag bag;
   openForReading(bag, path);
   const LineBag lines = readLines(bag, lines_topic);
@@ -43,6 +43,9 @@ EvaluatedBag evaluate(const std::string& path, const std::string& lines_topic, c
   }
   const auto* scene = dynamic_cast<const SceneTruth*>(truth.truth.get());
   if (absolute && scene != nullptr) evaluated.absolute = measureAbsolute(lines.frames, *scene);
+  if (surfaces && scene != nullptr) {
+    evaluated.surfaces = measureSurfaces(lines.frames, *scene, evaluated.measures.pairs, options.inlier_px);
+  }
   return evaluated;
 }
 
@@ -131,6 +134,14 @@ length; for equidistant and mei lenses those in the image.
              when they move together
   normmid    errors of the middle over sigma_px, as norm
   tracks/edge  lines of one image that show the same edge, mean over edges that a line shows
+
+Columns of the table of surfaces (--surfaces; needs the scene of simulate_bag):
+  surface    what a track's lines are on: solid things, or distractors: the outline of something
+             round, a cable, leaves, a person, the picture in a mirror or on a screen
+  lines%     share of the lines of all images
+  tracks     number of tracks
+  length     images per track, mean
+  <2px%      as above; of mirrors and screens by their surface, not by what they show
 )";
 
 int run(int argc, char** argv) {
@@ -140,12 +151,14 @@ int run(int argc, char** argv) {
   MeasureOptions measure;
   bool with_pairs = false;
   bool absolute = false;
+  bool surfaces = false;
   po::options_description options;
   // clang-format off
   options.add_options()
       ("bag", po::value(&paths)->required(), "bags with lines and truth, as written by track_bag")
       ("lines", po::value(&lines_topic)->default_value(sequence_bag::kLinesTopic), "topic of the lines")
       ("absolute", po::bool_switch(&absolute), "a second table: distance from the true edges of a simulated scene")
+      ("surfaces", po::bool_switch(&surfaces), "a table of what the lines of a simulated scene are on")
       ("csv", po::value(&csv_file), "write all measures to this file")
       ("json", po::value(&json_file), "write all measures, curves and the error histogram to this file")
       ("pairs", po::bool_switch(&with_pairs), "put the verdict on every line pair into the JSON file")
@@ -172,7 +185,7 @@ int run(int argc, char** argv) {
     ProgressBar progress(paths.size());
     for (const std::string& path : paths) {
       throwIfInterrupted();
-      bags.push_back(evaluate(path, lines_topic, measure, absolute));
+      bags.push_back(evaluate(path, lines_topic, measure, absolute, surfaces));
       progress.advance();
     }
   }
@@ -180,6 +193,10 @@ int run(int argc, char** argv) {
   if (absolute) {
     std::cout << "\n";
     writeAbsoluteText(std::cout, bags);
+  }
+  if (surfaces) {
+    std::cout << "\n";
+    writeSurfaceText(std::cout, bags);
   }
   if (!csv_file.empty()) {
     std::ostringstream text;

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include <std_msgs/String.h>
+#include <boost/algorithm/string/join.hpp>
 
 #include "../simulation/odometry.h"
 #include "../simulation/simulation.h"
@@ -104,8 +105,7 @@ int run(int argc, char** argv) {
   Arguments arguments;
   SimulationOptions& simulation = arguments.simulation;
   std::string effects = "none";
-  std::string names;
-  for (const std::string& name : cameraEffectNames()) names += (names.empty() ? "" : ", ") + name;
+  std::string distractors = "none";
   po::options_description options;
   options.add_options()("out", po::value(&arguments.out)->required(), "bag to write");
   options.add_options()("scene", po::value(&simulation.scene),
@@ -130,7 +130,14 @@ int run(int argc, char** argv) {
   options.add_options()("textureless-phase", po::bool_switch(&simulation.textureless_phase),
                         "the camera looks at a bare wall for 1.5 s in the middle");
   options.add_options()("camera-effects", po::value(&effects)->default_value(effects)->value_name("LIST"),
-                        ("all or a list of what the camera does to its pictures: " + names).c_str());
+                        ("all or a list of what the camera does to its pictures: " +
+                         boost::algorithm::join(cameraEffectNames(), ", "))
+                            .c_str());
+  options.add_options()("distractors",
+                        po::value(&distractors)->default_value(distractors)->value_name("LIST"),
+                        ("all or a list of things in the room whose lines are no straight edges: " +
+                         boost::algorithm::join(distractorNames(), ", "))
+                            .c_str());
   options.add_options()("camera-info", po::value(&arguments.camera_info)->value_name("FILE"),
                         "calibration of the camera (default: EuRoC's cam0, for drive KITTI's)");
   options.add_options()("no-imu", po::bool_switch(&arguments.no_imu), "write no IMU and no extrinsics");
@@ -154,6 +161,7 @@ int run(int argc, char** argv) {
                                 ", needs -0.5..0.5");
   }
   simulation.camera_effects = parseCameraEffects(effects);
+  simulation.distractors = parseDistractors(distractors);
   if (values.count("rate") == 0 && simulation.motion == "drive") simulation.rate_hz = 10.0;
   return simulate(arguments);
 }

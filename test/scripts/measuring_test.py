@@ -9,6 +9,7 @@ import unittest
 
 import cases
 import compare_speed
+import distractors_table
 import measures_table
 import methods_table
 import prior_table
@@ -139,6 +140,19 @@ class MeasuresTable(unittest.TestCase):
 
     def test_what_no_row_has_is_a_dash(self):
         self.assertEqual(measures_table.cells([{'inlier_ratio_2px': ''}], [self.COLUMN]), ['-'])
+
+
+class DistractorsTable(unittest.TestCase):
+    def test_has_a_row_for_each_kind_of_surface_that_has_tracks(self):
+        row = {'surface_{}_{}'.format(surface, measure): ''
+               for surface in distractors_table.SURFACES for measure in ('line_share', 'track_length', 'inlier_ratio_2px')}
+        row.update({'surface_{}_tracks'.format(surface): '0' for surface in distractors_table.SURFACES})
+        row.update(surface_solid_tracks='90', surface_solid_line_share='0.9', surface_solid_track_length='12.34',
+                   surface_solid_inlier_ratio_2px='0.9999', surface_mirror_tracks='10', surface_mirror_line_share='0.1',
+                   surface_mirror_track_length='5')
+        self.assertEqual(distractors_table.rows_by_surface({('slow', 'glossy_floor'): [row]}),
+                         [['slow', 'glossy floor', 'solid', '90.0', '90', '12.3', '99.99'],
+                          ['slow', 'glossy floor', 'mirror', '10.0', '10', '5.0', '-']])
 
 
 class MethodsTable(unittest.TestCase):

@@ -77,6 +77,42 @@ EdgeError edgeError(const cv::Mat_<float>& image, const CameraModel& camera, con
   return error;
 }
 
+/// The camera of TwoBoards in a world with a bright wall at z = 5 and a turned board at z = 7, or (mirrored
+/// at z = 3) with the board behind the camera and the mirror instead.
+World worldWithBoard(bool mirrored) {
+  World world;
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d y = Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d slanted = Eigen::Vector3d(0.9, 0.1, mirrored ? -0.4 : 0.4).normalized();
+  const Eigen::Vector3d corner(-0.8, -0.6, mirrored ? -1.0 : 7.0);
+  Texture board(1.5F, 1.2F, kBright);
+  board.paint({0.3F, 0.2F, 0.9F, 0.8F, kDark});
+  const Eigen::Vector3d upright = (mirrored ? -1.0 : 1.0) * slanted.cross(x).normalized();
+  addPlain(world, {corner, slanted, upright, 1.5, 1.2, -1}, board);
+  if (!mirrored) return world;
+  addPlain(world, {{-6.0, -5.0, 5.0}, x, y, 12.0, 10.0, -1}, Texture(12.0F, 10.0F, 90.0F));
+  addPlain(world, {{-4.0, -4.0, 3.0}, x, y, 8.0, 8.0, -1, SurfaceKind::kMirror}, Texture(8.0F, 8.0F, 20.0F));
+  world.mirrors.push_back({2, 0.75F});
+  return world;
+}
+
+TEST(Renderer, AMirrorShowsWhatIsBeforeItAndNothingFromBehindIt) {
+  const auto camera = makeCameraModel(defaultSimulatedCamera());
+  const std::vector<View> views{{Eigen::Isometry3d::Identity(), 0}};
+  const World plain = worldWithBoard(false);
+  const World mirrored = worldWithBoard(true);
+  const cv::Mat_<float> expected = Renderer(camera, plain, 1).render(views);
+  const cv::Mat_<float> image = Renderer(camera, mirrored, 2).render(views);
+  int board_pixels = 0;
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      ASSERT_NEAR(0.75F * expected(y, x) + 0.25F * 20.0F, image(y, x), 0.02F) << x << ", " << y;
+      if (expected(y, x) > 0.0F) ++board_pixels;
+    }
+  }
+  EXPECT_GT(board_pixels, 5000);
+}
+
 TEST(Renderer, PutsPaintedEdgesAndOutlinesWhereTheGeometryProjects) {
   const auto camera = makeCameraModel(defaultSimulatedCamera());
   const TwoBoards scene;

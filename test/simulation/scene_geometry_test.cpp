@@ -42,6 +42,24 @@ TEST(SceneGeometry, ComesBackFromItsTextBitForBit) {
   EXPECT_EQ(scene.edges()[0].start, back.edges()[0].start);
 }
 
+TEST(SceneGeometry, KeepsWhatASurfaceIs) {
+  SceneGeometry scene = wallBehindMovingPanel();
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d y = Eigen::Vector3d::UnitY();
+  for (int kind = 0; kind < kSurfaceKinds; ++kind) {
+    scene.addRectangle({{0.0, 0.0, 0.1 * kind}, x, y, 1.0, 1.0, -1, static_cast<SurfaceKind>(kind)});
+  }
+  const SceneGeometry back = SceneGeometry::fromText(scene.toText());
+  EXPECT_EQ(scene.toText(), back.toText());
+  ASSERT_EQ(scene.rectangles().size(), back.rectangles().size());
+  for (std::size_t i = 0; i < back.rectangles().size(); ++i) {
+    EXPECT_EQ(scene.rectangles()[i].kind, back.rectangles()[i].kind);
+  }
+  EXPECT_THROW(
+      SceneGeometry::fromText("tet_line_tracker_scene 1\nrectangle -1 0 0 0 1 0 0 0 1 0 1 1 stone\nend\n"),
+      std::runtime_error);
+}
+
 TEST(SceneGeometry, RefusesBrokenTextWithASentence) {
   const std::string text = wallBehindMovingPanel().toText();
   EXPECT_THROW(SceneGeometry::fromText(""), std::runtime_error);

@@ -90,24 +90,63 @@ TEST_F(EvaluateTracks, WritesTheSameMeasuresAsTextCsvAndJson) {
 }
 
 TEST_F(EvaluateTracks, ExplainsEveryColumnOfItsTable) {
-  const ToolRun run = runTool("evaluate_tracks", {in("first.bag"), "--absolute"});
+  const ToolRun run = runTool("evaluate_tracks", {in("first.bag"), "--absolute", "--surfaces"});
   ASSERT_EQ(run.status, 0) << run.errors;
   const std::string help = runTool("evaluate_tracks", {"--help"}).output;
   std::istringstream columns(help.substr(std::min(help.size(), help.find("\nColumns"))));
   std::set<std::string> words;
   for (std::string word; columns >> word;) words.insert(word);
-  const std::size_t second = run.output.find("\n\n");
-  ASSERT_NE(second, std::string::npos);
   std::size_t names = 0;
-  for (const std::string& table : {run.output, run.output.substr(second + 2)}) {
-    std::istringstream header(table.substr(0, table.find('\n')));
+  std::size_t tables = 0;
+  for (std::size_t start = 0; start != std::string::npos; ++tables) {
+    std::istringstream header(run.output.substr(start, run.output.find('\n', start) - start));
     std::string name;
     header >> name;  // bag
     for (; header >> name; ++names) {
       EXPECT_EQ(words.count(name), 1U) << name << " is not explained:\n" << help;
     }
+    start = run.output.find("\n\n", start);
+    if (start != std::string::npos) start += 2;
   }
-  EXPECT_GE(names, 30U);
+  EXPECT_EQ(tables, 3U);
+  EXPECT_GE(names, 35U);
+}
+
+TEST_F(EvaluateTracks, TellsLinesOnDistractorsFromThoseOnSolidThings) {
+  const std::string with = in("with.bag");
+  ASSERT_EQ(runTool("simulate_bag", {with, "--seconds", "0.5", "--distractors", "round,mirror"}).status, 0);
+  ASSERT_EQ(runTool("track_bag", {with, in("with_lines.bag")}).status, 0);
+  const ToolRun run =
+      runTool("evaluate_tracks", {in("first.bag"), in("with_lines.bag"), "--surfaces", "--csv",
+                                  in("surfaces.csv"), "--json", in("surfaces.json")});
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const YAML::Node json = YAML::LoadFile(in("surfaces.json"));
+  EXPECT_EQ(json[0]["surface_solid_line_share"].as<double>(), 1.0);
+  EXPECT_EQ(json[0]["surface_mirror_tracks"].as<int>(), 0);
+  EXPECT_LT(json[1]["surface_solid_line_share"].as<double>(), 0.95);
+  EXPECT_GT(json[1]["surface_round_tracks"].as<int>() + json[1]["surface_mirror_tracks"].as<int>(), 0);
+  double share = 0.0;
+  for (const char* kind : {"solid", "round", "cable", "foliage", "person", "mirror", "screen"}) {
+    const YAML::Node part = json[1]["surface_" + std::string(kind) + "_line_share"];
+    ASSERT_TRUE(part) << kind;
+    share += part.as<double>();
+  }
+  EXPECT_NEAR(share, 1.0, 1e-9);
+  const std::vector<std::string> csv = linesOf(in("surfaces.csv"));
+  ASSERT_EQ(csv.size(), 3U);
+  const std::vector<std::string> names = cellsOf(csv[0]);
+  const auto column = std::find(names.begin(), names.end(), "surface_solid_line_share");
+  ASSERT_NE(column, names.end());
+  const auto number = static_cast<std::size_t>(column - names.begin());
+  EXPECT_NEAR(std::stod(cellsOf(csv[2])[number]), json[1]["surface_solid_line_share"].as<double>(), 1e-9);
+
+  const ToolRun refused = runTool("simulate_bag", {in("never.bag"), "--distractors", "ghosts"});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(
+      refused.errors,
+      "simulate_bag: distractor \"ghosts\" is not known; known: none, all, round, cables, foliage, people, "
+      "mirror, glossy_floor, screen\n");
+  EXPECT_FALSE(fs::exists(in("never.bag")));
 }
 
 TEST_F(EvaluateTracks, EndsWithASentenceAndNoFileOnABagWithoutLines) {
