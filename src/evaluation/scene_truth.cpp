@@ -24,24 +24,18 @@ constexpr double kOnSurface = 0.002;        // for points exactly on theirs [m]
 SceneTruth::SceneTruth(SceneGeometry scene, PoseTrack world_from_camera,
                        std::shared_ptr<const CameraModel> camera)
     : scene_(std::move(scene)), world_from_camera_(std::move(world_from_camera)), camera_(std::move(camera)) {
-  for (std::size_t i = 0; i < scene_.rectangles().size(); ++i) {
-    if (scene_.rectangles()[i].body < 0) {
-      still_.push_back(screenOf(i, 0));
-    } else {
-      moving_.push_back(i);
-    }
+  moving_.resize(scene_.bodies().size());
+  for (const Rectangle& rectangle : scene_.rectangles()) {
+    auto& screens = rectangle.body < 0 ? still_ : moving_[static_cast<std::size_t>(rectangle.body)];
+    screens.push_back(screenOf(rectangle));
   }
 }
 
-SceneTruth::Screen SceneTruth::screenOf(std::size_t rectangle, std::int64_t stamp_ns) const {
-  const Rectangle& shape = scene_.rectangles()[rectangle];
-  const auto at = [&](double u, double v) {
-    return scene_.pointAt({static_cast<int>(rectangle), {u, v}}, stamp_ns);
-  };
+SceneTruth::Screen SceneTruth::screenOf(const Rectangle& rectangle) {
   Screen screen;
-  screen.corner = at(0.0, 0.0);
-  screen.across = (at(1.0, 0.0) - screen.corner) / shape.width;
-  screen.up = (at(0.0, 1.0) - screen.corner) / shape.height;
+  screen.corner = rectangle.origin;
+  screen.across = rectangle.u_axis / rectangle.width;
+  screen.up = rectangle.v_axis / rectangle.height;
   screen.normal = screen.across.cross(screen.up);
   return screen;
 }
@@ -59,13 +53,18 @@ bool SceneTruth::standsInTheWay(const Screen& screen, const Eigen::Vector3d& fro
 
 bool SceneTruth::hidden(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double until,
                         std::int64_t stamp_ns) const {
+  const auto anyHides = [until](const std::vector<Screen>& screens, const Eigen::Vector3d& start,
+                                const Eigen::Vector3d& way) {
+    return std::any_of(screens.begin(), screens.end(),
+                       [&](const Screen& screen) { return standsInTheWay(screen, start, way, until); });
+  };
   const Eigen::Vector3d way = to - from;
-  for (const Screen& screen : still_) {
-    if (standsInTheWay(screen, from, way, until)) return true;
+  if (anyHides(still_, from, way)) return true;
+  for (std::size_t body = 0; body < moving_.size(); ++body) {
+    const Eigen::Isometry3d body_from_world = scene_.bodies()[body].worldFromBody(stamp_ns).inverse();
+    if (anyHides(moving_[body], body_from_world * from, body_from_world.linear() * way)) return true;
   }
-  return std::any_of(moving_.begin(), moving_.end(), [&](std::size_t rectangle) {
-    return standsInTheWay(screenOf(rectangle, stamp_ns), from, way, until);
-  });
+  return false;
 }
 
 std::array<std::optional<RayHit>, 2> SceneTruth::hitsBeside(const Eigen::Isometry3d& world_from_camera,

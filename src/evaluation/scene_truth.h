@@ -36,24 +36,24 @@ class SceneTruth : public Truth {
   bool isHidden(const Eigen::Vector3d& in_world, std::int64_t stamp_ns) const;
 
  private:
-  /// A rectangle at one time, made ready for the question whether it stands in a way.
+  /// A rectangle in the frame of its body, made ready for the question whether it stands in a way.
   struct Screen {
     Eigen::Vector3d corner, normal;
     Eigen::Vector3d across, up;  ///< times the offset from the corner: 0..1 inside
   };
+  static Screen screenOf(const Rectangle& rectangle);
   /// What is seen beside a line, on either side of it.
   std::array<std::optional<RayHit>, 2> hitsBeside(const Eigen::Isometry3d& world_from_camera,
                                                   std::int64_t stamp_ns, const Eigen::Vector2d& pixel,
                                                   const Eigen::Vector2d& normal) const;
-  Screen screenOf(std::size_t rectangle, std::int64_t stamp_ns) const;
   static bool standsInTheWay(const Screen& screen, const Eigen::Vector3d& from, const Eigen::Vector3d& way,
                              double until);
   /// `until`: share of the way that must be free.
   bool hidden(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double until,
               std::int64_t stamp_ns) const;
 
-  std::vector<Screen> still_;        ///< rectangles that do not move
-  std::vector<std::size_t> moving_;  ///< indices of the others
+  std::vector<Screen> still_;                ///< rectangles that do not move
+  std::vector<std::vector<Screen>> moving_;  ///< the others, by body
   SceneGeometry scene_;
   PoseTrack world_from_camera_;
   std::shared_ptr<const CameraModel> camera_;
