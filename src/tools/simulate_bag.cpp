@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -28,7 +29,16 @@ struct Arguments {
   bool noise_free_imu{false};
   bool odometry{false};
   double imu_time_offset_s{0.0};
+  double imu_bias_rad_s{0.0};
+  double imu_misalignment_deg{0.0};
 };
+
+void checkRange(const char* name, double value, double low, double high) {
+  if (value >= low && value <= high) return;
+  std::ostringstream sentence;
+  sentence << name << " is " << value << ", needs " << low << ".." << high;
+  throw std::invalid_argument(sentence.str());
+}
 
 ros::Time toRosTime(std::int64_t stamp_ns) {
   ros::Time stamp;
@@ -42,10 +52,15 @@ int writeImuSamples(SequenceBag& bag, const Simulation& simulation, const Argume
   InertialErrors errors(arguments.simulation.seed, kRate);
   const double end_s = simulation.timeOf(simulation.imageStamp(simulation.imageCount() - 1)) + kMargin;
   const int count = static_cast<int>(std::ceil((end_s + kMargin) * kRate)) + 1;
+  // About an axis that is none of the camera's.
+  const Eigen::AngleAxisd misalignment(arguments.imu_misalignment_deg * M_PI / 180.0,
+                                       Eigen::Vector3d(2.0, -1.0, 1.0).normalized());
+  const Eigen::Isometry3d camera_from_imu = defaultCameraFromImu() * misalignment;
   for (int i = 0; i < count; ++i) {
     const double time_s = i / kRate - kMargin;
-    const InertialSample ideal = idealInertialSample(simulation.trajectory(), defaultCameraFromImu(), time_s);
-    const InertialSample sample = arguments.noise_free_imu ? ideal : errors.apply(ideal);
+    const InertialSample ideal = idealInertialSample(simulation.trajectory(), camera_from_imu, time_s);
+    InertialSample sample = arguments.noise_free_imu ? ideal : errors.apply(ideal);
+    sample.angular_velocity.array() += arguments.imu_bias_rad_s;
     bag.writeImu(toRosTime(simulation.stampAt(time_s + arguments.imu_time_offset_s)), sample.angular_velocity,
                  sample.acceleration);
   }
@@ -149,6 +164,10 @@ int run(int argc, char** argv) {
       "no roll, no slip");
   options.add_options()("imu-time-offset", po::value(&arguments.imu_time_offset_s)->value_name("S"),
                         "stamps of the IMU are later by this than those of images, -0.5 to 0.5 [s]");
+  options.add_options()("imu-bias", po::value(&arguments.imu_bias_rad_s)->value_name("RAD_S"),
+                        "added to each axis of the gyroscope, -1 to 1 [rad/s]");
+  options.add_options()("imu-misalignment", po::value(&arguments.imu_misalignment_deg)->value_name("DEG"),
+                        "the IMU is turned by this from where its transform says, 0 to 180 [deg]");
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   options.add_options()("threads", po::value(&simulation.threads)->default_value(cores),
                         "for rendering; the bag does not depend on it");
@@ -156,10 +175,9 @@ int run(int argc, char** argv) {
   positional.add("out", 1);
   po::variables_map values;
   if (!parseCommandLine(argc, argv, "simulate_bag OUT.bag [options]", options, positional, values)) return 0;
-  if (!(std::abs(arguments.imu_time_offset_s) <= 0.5)) {
-    throw std::invalid_argument("imu-time-offset is " + std::to_string(arguments.imu_time_offset_s) +
-                                ", needs -0.5..0.5");
-  }
+  checkRange("imu-time-offset", arguments.imu_time_offset_s, -0.5, 0.5);
+  checkRange("imu-bias", arguments.imu_bias_rad_s, -1.0, 1.0);
+  checkRange("imu-misalignment", arguments.imu_misalignment_deg, 0.0, 180.0);
   simulation.camera_effects = parseCameraEffects(effects);
   simulation.distractors = parseDistractors(distractors);
   if (values.count("rate") == 0 && simulation.motion == "drive") simulation.rate_hz = 10.0;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -14,10 +15,11 @@ namespace {
 /// A prior whose IMU is late by `offset_s`, fed as the node feeds it.
 class DelayedImu {
  public:
-  DelayedImu(double offset_s, const std::shared_ptr<const CameraModel>& camera)
+  /// `told`: the parameter imu_time_offset.
+  DelayedImu(double offset_s, const std::string& told, const std::shared_ptr<const CameraModel>& camera)
       : prior_([&] {
           MotionPriorParameters parameters;
-          parameters.imu_time_offset = "auto";
+          parameters.imu_time_offset = told;
           return MotionPrior(parameters);
         }()),
         offset_s_(offset_s) {
@@ -25,7 +27,7 @@ class DelayedImu {
     prior_.setImuRotation(defaultCameraFromImu().linear());
   }
 
-  void predict(const Simulation& simulation, const ImagePyramid& pyramid, std::int64_t stamp_ns) {
+  MotionPrediction predict(const Simulation& simulation, const ImagePyramid& pyramid, std::int64_t stamp_ns) {
     const double until_s = simulation.timeOf(stamp_ns) + prior_.imuTimeOffset();
     for (bool beyond = false; !beyond; ++sample_) {
       const double time_s = -0.3 + 0.005 * sample_;
@@ -34,7 +36,7 @@ class DelayedImu {
       prior_.addAngularVelocity(simulation.stampAt(time_s + offset_s_), sample.angular_velocity);
       beyond = time_s + offset_s_ >= until_s;
     }
-    prior_.predict(pyramid, stamp_ns);
+    return prior_.predict(pyramid, stamp_ns);
   }
   double offset() const { return prior_.imuTimeOffset(); }
 
@@ -52,9 +54,9 @@ TEST(ImuTimeOffset, IsFoundToAMillisecondOnAShakenFlightAndStaysAtZeroWhereThere
   options.threads = 2;
   const auto camera = makeCameraModel(defaultSimulatedCamera());
   Simulation simulation(options, camera);
-  DelayedImu none(0.0, camera);
-  DelayedImu late(0.02, camera);
-  DelayedImu early(-0.03, camera);
+  DelayedImu none(0.0, "auto", camera);
+  DelayedImu late(0.02, "auto", camera);
+  DelayedImu early(-0.03, "auto", camera);
   for (int i = 0; i < simulation.imageCount(); ++i) {
     const std::int64_t stamp = simulation.imageStamp(i);
     ImagePyramid pyramid;
@@ -66,6 +68,30 @@ TEST(ImuTimeOffset, IsFoundToAMillisecondOnAShakenFlightAndStaysAtZeroWhereThere
   }
   EXPECT_NEAR(late.offset(), 0.02, 1e-3);
   EXPECT_NEAR(early.offset(), -0.03, 1e-3);
+}
+
+TEST(MotionPrior, IsNotLedByAGyroscopeWhoseStampsAreLate) {
+  SimulationOptions options;
+  options.motion = "shake";
+  options.seconds = 4.0;
+  options.threads = 2;
+  const auto camera = makeCameraModel(defaultSimulatedCamera());
+  Simulation simulation(options, camera);
+  DelayedImu late(0.03, "0", camera);
+  const auto poseAt = [&](int image) {
+    return simulation.trajectory().worldFromCamera(simulation.timeOf(simulation.imageStamp(image)));
+  };
+  int wrong = 0;
+  for (int i = 0; i < simulation.imageCount(); ++i) {
+    ImagePyramid pyramid;
+    pyramid.build(simulation.nextImage(), MotionPrior::kPyramidLevels);
+    const MotionPrediction prediction = late.predict(simulation, pyramid, simulation.imageStamp(i));
+    if (i == 0) continue;
+    const Eigen::Matrix3d truth = poseAt(i).linear().transpose() * poseAt(i - 1).linear();
+    constexpr double kWrong = 0.005;  // 2 px [rad]
+    if (Eigen::AngleAxisd(truth.transpose() * prediction.rotation).angle() > kWrong) ++wrong;
+  }
+  EXPECT_LT(wrong, simulation.imageCount() / 5);
 }
 
 }  // namespace

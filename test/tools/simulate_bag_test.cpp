@@ -108,6 +108,36 @@ TEST(SimulateBag, StampsTheImuLaterByTheOffset) {
   EXPECT_EQ(readTopic<sensor_msgs::Image>(late, "/cam0/image_raw").size(), 2U);
 }
 
+TEST(SimulateBag, TurnsTheImuAndAddsItsBias) {
+  const TemporaryFolder folder;
+  const std::string good = folder.path() / "good.bag";
+  const std::string bad = folder.path() / "bad.bag";
+  const std::vector<std::string> arguments{"--seconds", "0.05", "--noise-free-imu"};
+  const auto simulate = [&](std::vector<std::string> bag) {
+    bag.insert(bag.end(), arguments.begin(), arguments.end());
+    return runTool("simulate_bag", bag).status;
+  };
+  ASSERT_EQ(simulate({good}), 0);
+  ASSERT_EQ(simulate({bad, "--imu-bias", "0.2", "--imu-misalignment", "2"}), 0);
+  const auto expected = readTopic<sensor_msgs::Imu>(good, "/imu0");
+  const auto imu = readTopic<sensor_msgs::Imu>(bad, "/imu0");
+  ASSERT_EQ(imu.size(), expected.size());
+  const Eigen::AngleAxisd turn(2.0 * M_PI / 180.0, Eigen::Vector3d(2.0, -1.0, 1.0).normalized());
+  const auto vectorOf = [](const geometry_msgs::Vector3& v) { return Eigen::Vector3d(v.x, v.y, v.z); };
+  for (std::size_t i = 0; i < imu.size(); ++i) {
+    const Eigen::Vector3d rate = turn.inverse() * vectorOf(expected[i].message.angular_velocity);
+    const Eigen::Vector3d measured = vectorOf(imu[i].message.angular_velocity);
+    EXPECT_LT((measured - rate - Eigen::Vector3d::Constant(0.2)).norm(), 1e-6);
+    const Eigen::Vector3d force = turn.inverse() * vectorOf(expected[i].message.linear_acceleration);
+    EXPECT_LT((vectorOf(imu[i].message.linear_acceleration) - force).norm(), 1e-3);
+  }
+  // The transform does not know of it.
+  const auto transformOf = [](const std::string& bag) {
+    return readTopic<tf2_msgs::TFMessage>(bag, "/tf_static").at(0).message.transforms.at(0);
+  };
+  EXPECT_EQ(transformOf(good), transformOf(bad));
+}
+
 TEST(SimulateBag, WritesAnOdometryWithTheFrameThatMovesWithTheCamera) {
   const TemporaryFolder folder;
   const std::string bag = folder.path() / "driven.bag";
@@ -148,6 +178,8 @@ TEST(SimulateBag, EndsWithASentenceAndNoBagOnBadInput) {
                                                 {"--seconds", "-1"},
                                                 {"--rate", "0"},
                                                 {"--imu-time-offset", "0.6"},
+                                                {"--imu-bias", "1.5"},
+                                                {"--imu-misalignment", "-1"},
                                                 {"--motion", "drive", "--scene", "room"},
                                                 {"--scene", "room", "--motion", "corridor"}}) {
     std::vector<std::string> arguments{bag};

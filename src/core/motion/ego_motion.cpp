@@ -13,7 +13,12 @@ namespace {
 
 constexpr double kGyroSigma = 0.001;  ///< of a rotation that the gyroscope measured, besides its bias [rad]
 constexpr double kImageSigma = 0.04;  ///< of one that the images alone show: it takes up parallax [rad]
-constexpr double kMinStep = 0.005;    ///< by an odometry; a shorter one has no direction [m]
+// Shares of the corners: that agree with a trusted gyroscope, and that must agree with another rotation
+// beyond those that agree with the gyroscope, trusted or not yet.
+constexpr double kConfirmed = 0.85;
+constexpr double kLeadOverTrusted = 0.10;
+constexpr double kLead = 0.03;
+constexpr double kMinStep = 0.005;        ///< by an odometry; a shorter one has no direction [m]
 constexpr double kOtherRotation = 0.02;   ///< a difference that corners are to decide on [rad]
 constexpr std::size_t kManyInliers = 20;  ///< that no chance brings together
 constexpr std::size_t kMinRatios = 5;     ///< corners that must tell how much longer a step is than the last
@@ -39,6 +44,8 @@ void EgoMotionTracker::setCamera(std::shared_ptr<const CameraModel> camera) {
 void EgoMotionTracker::reset() {
   corners_.clear();
   known_.assign(corners_.size(), Known());
+  pairs_.reserve(corners_.size());
+  free_pairs_.reserve(corners_.size());
   translation_.setZero();
   rotation_.setZero();
   last_interval_s_ = 0.0;
@@ -117,13 +124,24 @@ EgoMotion EgoMotionTracker::follow(const ImagePyramid& pyramid, double interval_
   prior.steady = so3Log(steadyRotation(interval_s) * rotation.transpose());
   prior.translation = rotation * translation_;
   EgoMotion motion = estimator_.estimate(pairs_, focal_, prior);
-  if (measured && !measured->trusted && !motion.rotates) {
-    prior.rotation.setZero();
-    prior.rotation_sigma = kImageSigma;
-    motion = estimator_.estimate(pairs_, focal_, prior);
-  }
+  if (measured) askCornersAlone(*measured, prior, motion);
   motion.rotates = motion.rotates && motion.inliers >= min_inliers;
   return motion.rotates ? motion : EgoMotion();
+}
+
+void EgoMotionTracker::askCornersAlone(const MeasuredRotation& measured, EpipolarEstimator::Prior prior,
+                                       EgoMotion& motion) {
+  const auto corners = static_cast<double>(pairs_.size());
+  if (measured.trusted && static_cast<double>(motion.agreeing) >= kConfirmed * corners) return;
+  prior.rotation.setZero();
+  prior.rotation_sigma = kImageSigma;
+  free_pairs_ = pairs_;
+  const EgoMotion alone = estimator_.estimate(free_pairs_, focal_, prior);
+  const double lead = static_cast<double>(alone.agreeing) - static_cast<double>(motion.agreeing);
+  const bool contradicted = lead > (measured.trusted ? kLeadOverTrusted : kLead) * corners;
+  if (!alone.rotates || !(contradicted || (!measured.trusted && !motion.rotates))) return;
+  motion = alone;
+  pairs_.swap(free_pairs_);
 }
 
 double EgoMotionTracker::stepRatio(const EgoMotion& motion, double fallback) {

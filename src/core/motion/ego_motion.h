@@ -62,6 +62,9 @@ class EgoMotionTracker {
   /// fewer than `min_inliers` agree.
   EgoMotion follow(const ImagePyramid& pyramid, double interval_s, const Eigen::Matrix3d& rotation,
                    const std::optional<MeasuredRotation>& measured, std::size_t min_inliers);
+  /// Takes the motion that the corners alone show instead of `motion`, which is bound to the gyroscope, where
+  /// more of them agree with it: a gyroscope is wrong whose stamps are late, for one.
+  void askCornersAlone(const MeasuredRotation& measured, EpipolarEstimator::Prior prior, EgoMotion& motion);
   /// Where the prediction led the corners astray: from the gyroscope's rotation, or without it from going on
   /// as before and from a few turns. Corrects the prediction when it finds them again.
   EgoMotion followFromElsewhere(const ImagePyramid& pyramid, double interval_s,
@@ -78,7 +81,8 @@ class EgoMotionTracker {
   EpipolarEstimator estimator_;
   std::vector<Known> known_;
   std::vector<PointPair> pairs_;
-  std::vector<std::size_t> slots_;  ///< of the pairs
+  std::vector<PointPair> free_pairs_;  ///< the same, where no gyroscope is asked
+  std::vector<std::size_t> slots_;     ///< of the pairs
   std::vector<double> ratios_;
   Eigen::Vector3d translation_{Eigen::Vector3d::Zero()};  ///< of the last step
   Eigen::Vector3d rotation_{Eigen::Vector3d::Zero()};     ///< of the last step, rotation vector [rad]

@@ -178,6 +178,9 @@ EgoMotion EpipolarEstimator::estimate(std::vector<PointPair>& pairs, double foca
   if (parallaxOf(pairs, focal, prior.rotation) < kMinParallax) {
     motion.rotates = true;
     motion.rotation = prior.rotation;
+    const auto isExplained = [](double px) { return px < kInlierDistance; };
+    motion.agreeing =
+        static_cast<std::size_t>(std::count_if(parallax_.begin(), parallax_.end(), isExplained));
     return motion;
   }
 
@@ -240,6 +243,7 @@ EgoMotion EpipolarEstimator::estimate(std::vector<PointPair>& pairs, double foca
     if (px < -kInlierDistance) pair.inlier = false;
     if (pair.inlier) ++motion.inliers;
   }
+  motion.agreeing = motion.inliers;
   if (static_cast<double>(motion.inliers) < kMinInliers * static_cast<double>(pairs.size())) return motion;
   motion.rotates = true;
   motion.rotation = rotation;

@@ -22,6 +22,7 @@ struct EgoMotion {
   Eigen::Vector3d translation{Eigen::Vector3d::Zero()};  ///< unit vector: how points move in the optical
                                                          ///< frame; zero: not known
   std::size_t inliers{0};
+  std::size_t agreeing{0};  ///< the same, and also counted where the rotation alone explains the points
   bool rotates{false};  ///< the rotation is known, also where the translation is too small to be seen
   bool known() const { return !translation.isZero(); }
 };
