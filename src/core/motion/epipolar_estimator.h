@@ -23,7 +23,7 @@ struct EgoMotion {
                                                          ///< frame; zero: not known
   std::size_t inliers{0};
   std::size_t agreeing{0};  ///< the same, and also counted where the rotation alone explains the points
-  bool rotates{false};  ///< the rotation is known, also where the translation is too small to be seen
+  bool rotates{false};      ///< the rotation is known, also where the translation is too small to be seen
   bool known() const { return !translation.isZero(); }
 };
 
