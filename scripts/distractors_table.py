@@ -6,7 +6,7 @@
 Bags are named MOTION-DISTRACTORS-SEED-TRACKER; the mean over the seeds is printed, a row for each kind of surface that has lines."""
 import sys
 
-from measures_table import Column, cells, mean, print_table, rows_of
+from measures_table import Column, cells, flights_of, mean, print_table
 
 SURFACES = ['solid', 'round', 'cable', 'foliage', 'person', 'mirror', 'screen']
 
@@ -29,11 +29,8 @@ def rows_by_surface(flights):
 def main():
     for argument in sys.argv[1:]:
         tracker, path = argument.split('=', 1)
-        flights = {}
-        for row in rows_of(path):
-            flights.setdefault(tuple(row['bag'].split('-')[:2]), []).append(row)
         print('## {}\n'.format(tracker))
-        print_table(['motion', 'distractors', 'lines on'] + [column.title for column in columns_of('')], rows_by_surface(flights))
+        print_table(['motion', 'distractors', 'lines on'] + [column.title for column in columns_of('')], rows_by_surface(flights_of(path)))
 
 
 if __name__ == '__main__':

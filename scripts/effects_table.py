@@ -6,7 +6,7 @@
 Bags are named MOTION-EFFECT-SEED-TRACKER; the mean over the seeds is printed."""
 import sys
 
-from measures_table import Column, cells, print_table, rows_of
+from measures_table import Column, cells, flights_of, print_table
 
 COLUMNS = [Column('lines per image', 'lines_per_image', '{:.0f}', 1.0),
            Column('under 2 px [%]', 'inlier_ratio_2px', '{:.2f}', 100.0),
@@ -22,12 +22,9 @@ COLUMNS = [Column('lines per image', 'lines_per_image', '{:.0f}', 1.0),
 def main():
     for argument in sys.argv[1:]:
         tracker, path = argument.split('=', 1)
-        flights = {}  # {(motion, effect): a row for each seed}
-        for row in rows_of(path):
-            flights.setdefault(tuple(row['bag'].split('-')[:2]), []).append(row)
         print('## {}\n'.format(tracker))
         print_table(['motion', 'effect'] + [column.title for column in COLUMNS],
-                    [[motion, effect.replace('_', ' ')] + cells(rows, COLUMNS) for (motion, effect), rows in flights.items()])
+                    [[motion, effect.replace('_', ' ')] + cells(rows, COLUMNS) for (motion, effect), rows in flights_of(path).items()])
 
 
 if __name__ == '__main__':

@@ -12,6 +12,14 @@ def rows_of(path):
         return list(csv.DictReader(file))
 
 
+def flights_of(path):
+    """{(MOTION, VARIANT): a row for each seed} of bags that are named MOTION-VARIANT-SEED-TRACKER."""
+    flights = {}
+    for row in rows_of(path):
+        flights.setdefault(tuple(row['bag'].split('-')[:2]), []).append(row)
+    return flights
+
+
 def mean(rows, measure):
     """Over the rows that have the measure; None: none has."""
     values = [float(row[measure]) for row in rows if row[measure]]

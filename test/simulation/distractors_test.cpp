@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "simulation/world.h"
+#include "simulation/simulation.h"
 
 namespace tet_line_tracker {
 namespace {
@@ -31,6 +31,16 @@ TEST(Distractors, NeedTheRoom) {
   EXPECT_NO_THROW(makeWorld(options));
   options.distractors.mirror = true;
   EXPECT_THROW(makeWorld(options), std::invalid_argument);
+}
+
+TEST(Distractors, AreNamedInTheScene) {
+  SimulationOptions options;
+  options.seconds = 0.1;
+  const auto camera = makeCameraModel(defaultSimulatedCamera());
+  EXPECT_EQ(Simulation(options, camera).geometry().toText().find("distractors"), std::string::npos);
+  options.distractors = parseDistractors("screen,cables");
+  EXPECT_NE(Simulation(options, camera).geometry().toText().find("argument distractors cables,screen\n"),
+            std::string::npos);
 }
 
 TEST(Distractors, LeaveTheRestOfTheRoomAsItIs) {
