@@ -28,9 +28,10 @@ row() {
   kill -INT "$manager"
   wait "$manager" || true
 }
-echo "| load | transport | images | p50 [ms] | p99 [ms] | max [ms] | processor [% of a core] | memory [MB] | lost |"
-echo "|---|---|---|---|---|---|---|---|---|"
+echo "| load | transport | images | p50 [ms] | p99 [ms] | max [ms] | processor [% of a core] | memory [MB] | lost | debug images |"
+echo "|---|---|---|---|---|---|---|---|---|---|"
 row --label "752x480 at 200 Hz" --rate 200
+row --label "752x480 at 200 Hz, debug image and markers watched" --rate 200 --watch
 row --label "four cameras, 752x480 at 60 Hz" --cameras 4 --rate 60
 row --label "1920x1080 at 60 Hz" --rate 60 --width 1920 --height 1080
 row --label "752x480 at 60 Hz, after 5 s at 600 Hz" --rate 60 --flood 5

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Prints one Markdown table from what evaluate_tracks --csv wrote of the same flights with several motion priors.
+"""Prints Markdown tables from what evaluate_tracks --csv wrote of the same flights with several motion priors.
 
     prior_table.py FOLDER/PRIOR ...
 
-Reads FOLDER/PRIOR.csv. One row for each regime and prior, means over its seeds (regime-SEED), and how imu does against image.
+Reads FOLDER/PRIOR.csv. First auto against image: means and their standard errors over the flights of a regime (regime-SEED), each
+compared with itself. Then a row for each regime and prior, means over its flights.
 """
 import csv
+import math
 import os
 import re
 import statistics
@@ -55,27 +57,35 @@ def table(measured):
     return lines
 
 
+def spread(values, scale, digits):
+    """Mean and its standard error."""
+    if not values:
+        return '-'
+    mean_cell = '{:.{}f}'.format(scale * statistics.mean(values), digits)
+    if len(values) < 2:
+        return mean_cell
+    error = statistics.stdev(values) / math.sqrt(len(values))
+    return '{} ± {:.{}f}'.format(mean_cell, scale * error, digits)
+
+
 def comparison(measured):
-    """Sentences that say in which flights tracks with `imu` are shorter than with `image`, flight by flight."""
-    pairs = [(regime, i, imu, image) for regime in measured['imu']
-             for i, (imu, image) in enumerate(zip(measured['imu'][regime]['track_length'],
-                                                  measured['image'][regime]['track_length']))]
-    ratios = [imu / image for _, _, imu, image in pairs]
-    worst = min(range(len(pairs)), key=lambda i: ratios[i])
-    return ['',
-            'imu against image, images per track: {} flights, ratio {:.3f} to {:.3f}, median {:.3f}; '
-            '{} shorter by over 1 %, {} longer by over 1 %; worst in {}'.format(
-                len(pairs), min(ratios), max(ratios), statistics.median(ratios),
-                sum(ratio < 0.99 for ratio in ratios), sum(ratio > 1.01 for ratio in ratios), pairs[worst][0])]
+    """Lines of a table of what `auto` does against `image`, flight by flight."""
+    lines = ['| flight | flights | images per track, ratio | survival, difference [points] |', '|---|---|---|---|']
+    for regime, image in measured['image'].items():
+        auto = measured['auto'][regime]
+        lengths = [a / i for a, i in zip(auto['track_length'], image['track_length'])]
+        survivals = [a - i for a, i in zip(auto['survival'], image['survival']) if a is not None and i is not None]
+        lines.append('| {} | {} | {} | {} |'.format(regime, len(lengths), spread(lengths, 1, 3), spread(survivals, 100, 1)))
+    return lines
 
 
 def main():
     if len(sys.argv) < 2 or sys.argv[1].startswith('-'):
         sys.exit(__doc__)
     measured = {os.path.basename(path): read(path + '.csv') for path in sys.argv[1:]}
+    if 'auto' in measured and 'image' in measured:
+        print('\n'.join(comparison(measured)) + '\n')
     print('\n'.join(table(measured)))
-    if 'imu' in measured and 'image' in measured:
-        print('\n'.join(comparison(measured)))
     return 0
 
 

@@ -1,6 +1,5 @@
 #include "line_publisher.h"
 
-#include <sensor_msgs/image_encodings.h>
 #include <visualization_msgs/MarkerArray.h>
 #include <boost/make_shared.hpp>
 
@@ -12,21 +11,6 @@ namespace {
 /// Lines matter to estimators, so a slow subscriber gets this many messages of slack.
 constexpr std::uint32_t kLinesQueue = 100;
 constexpr std::uint32_t kDisplayQueue = 2;
-
-sensor_msgs::ImageConstPtr toDebugImage(const LineFrame& frame, const std::string& frame_id,
-                                        const cv::Mat& gray, TrackPainter& painter) {
-  const auto image = boost::make_shared<sensor_msgs::Image>();
-  image->header.stamp.fromNSec(static_cast<std::uint64_t>(frame.stamp_ns));
-  image->header.frame_id = frame_id;
-  image->encoding = sensor_msgs::image_encodings::BGR8;
-  image->width = static_cast<std::uint32_t>(gray.cols);
-  image->height = static_cast<std::uint32_t>(gray.rows);
-  image->step = 3 * image->width;
-  image->data.resize(static_cast<std::size_t>(image->step) * image->height);
-  cv::Mat bgr(gray.rows, gray.cols, CV_8UC3, image->data.data(), image->step);
-  painter.paint(gray, frame, bgr);
-  return image;
-}
 
 TrackPainter::Style styleOf(const NodeParameters& parameters) {
   TrackPainter::Style style;
@@ -40,17 +24,16 @@ LinePublisher::LinePublisher(ros::NodeHandle& node, const NodeParameters& parame
     : publish_rate_(parameters.publish_rate),
       throttle_(parameters.publish_rate),
       marker_builder_(parameters.marker_ids),
-      painter_(styleOf(parameters)),
       lines_(node.advertise<LineArray>("lines", kLinesQueue)),
       markers_(node.advertise<visualization_msgs::MarkerArray>("markers", kDisplayQueue)),
       statistics_(node.advertise<TrackingStatistics>("statistics", kLinesQueue)),
-      debug_image_(image_transport::ImageTransport(node).advertise("debug_image", kDisplayQueue)) {}
+      debug_image_(node, styleOf(parameters)) {}
 
 void LinePublisher::setParameters(const NodeParameters& parameters) {
   if (parameters.publish_rate != publish_rate_) throttle_ = PublishThrottle(parameters.publish_rate);
   publish_rate_ = parameters.publish_rate;
   marker_builder_.setIds(parameters.marker_ids);
-  painter_.setStyle(styleOf(parameters));
+  debug_image_.setStyle(styleOf(parameters));
 }
 
 bool LinePublisher::publish(const LineFrame& frame, const std::string& frame_id, const cv::Mat& gray,
@@ -71,9 +54,7 @@ bool LinePublisher::publish(const LineFrame& frame, const std::string& frame_id,
     markers_.publish(
         boost::make_shared<const visualization_msgs::MarkerArray>(marker_builder_.build(frame, frame_id)));
   }
-  if (debug_image_.getNumSubscribers() > 0) {
-    debug_image_.publish(toDebugImage(frame, frame_id, gray, painter_));
-  }
+  debug_image_.publish(frame, frame_id, gray);
   return true;
 }
 

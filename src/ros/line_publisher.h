@@ -6,14 +6,13 @@
 #include <string>
 #include <utility>
 
-#include <image_transport/image_transport.h>
 #include <ros/ros.h>
 #include <opencv2/core.hpp>
 
+#include "debug_image_publisher.h"
 #include "markers.h"
 #include "node_parameters.h"
 #include "publish_throttle.h"
-#include "tet_line_tracker/display/track_painter.h"
 #include "tet_line_tracker/tracking/line_frame.h"
 
 namespace tet_line_tracker {
@@ -30,20 +29,19 @@ class LinePublisher {
   void setParameters(const NodeParameters& parameters);
 
   /// The picture shows lines as this camera bends them; nullptr: straight.
-  void setCamera(std::shared_ptr<const CameraModel> camera) { painter_.setCamera(std::move(camera)); }
+  void setCamera(std::shared_ptr<const CameraModel> camera) { debug_image_.setCamera(std::move(camera)); }
 
   /// `gray`: the image of `frame`; `replaced`: images that gave way to newer ones since the node began. False
   /// when publish_rate leaves this image out.
   bool publish(const LineFrame& frame, const std::string& frame_id, const cv::Mat& gray,
                std::uint64_t replaced);
 
-  std::string debugImageTopic() const { return debug_image_.getTopic(); }
+  std::string debugImageTopic() const { return debug_image_.topic(); }
 
  private:
   double publish_rate_;  ///< of throttle_
   PublishThrottle throttle_;
   MarkerBuilder marker_builder_;
-  TrackPainter painter_;
   std::optional<std::uint32_t> epoch_;
   std::uint64_t replaced_before_epoch_{0};
   std::uint32_t lines_sequence_{0};
@@ -52,7 +50,7 @@ class LinePublisher {
   ros::Publisher lines_;
   ros::Publisher markers_;
   ros::Publisher statistics_;
-  image_transport::Publisher debug_image_;
+  DebugImagePublisher debug_image_;
 };
 
 }  // namespace tet_line_tracker

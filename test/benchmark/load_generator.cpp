@@ -4,10 +4,12 @@
 #include <nodelet/loader.h>
 #include <ros/ros.h>
 #include <unistd.h>
+#include <visualization_msgs/MarkerArray.h>
 #include <boost/make_shared.hpp>
 #include <boost/program_options.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -37,6 +39,7 @@ struct Arguments {
   double flood_s{0.0};  ///< before that, ten times the rate for so long
   int width{752};
   int height{480};
+  bool watch{false};   ///< somebody looks at the debug image and at the markers
   int manager_pid{0};  ///< of /manager; 0: trackers in this process
 };
 
@@ -87,8 +90,17 @@ class Camera {
               0,
               1};
     info_.publish(info);
+    if (!arguments.watch) return;
+    debug_images_ = node.subscribe<sensor_msgs::Image>(
+        "/" + name + "/debug_image", 1, [this](const sensor_msgs::Image::ConstPtr&) { ++pictures_seen_; });
+    markers_ = node.subscribe("/" + name + "/markers", 1, &Camera::ignore);
   }
-  bool isConnected() const { return images_.getNumSubscribers() == 1 && lines_.getNumPublishers() == 1; }
+  bool isConnected() const {
+    return images_.getNumSubscribers() == 1 && lines_.getNumPublishers() == 1 &&
+           (!debug_images_ || (debug_images_.getNumPublishers() == 1 && markers_.getNumPublishers() == 1));
+  }
+  /// Debug images since the last call.
+  int takePicturesSeen() { return pictures_seen_.exchange(0); }
 
   void send(int image, const ros::Time& stamp) {
     const int turn = image % (2 * kPictures - 2);
@@ -112,6 +124,8 @@ class Camera {
  private:
   static constexpr int kPictures = 100;
 
+  static void ignore(const visualization_msgs::MarkerArray::ConstPtr& /*markers*/) {}
+
   void take(const LineArray& lines) {
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto sent = sent_.find(lines.header.stamp);
@@ -124,8 +138,9 @@ class Camera {
   std::mutex mutex_;                             ///< guards the two below
   std::map<ros::Time, Clock::time_point> sent_;  ///< whose lines have not come
   std::vector<double> latencies_ms_;
+  std::atomic<int> pictures_seen_{0};
   ros::Publisher images_, info_;
-  ros::Subscriber lines_;
+  ros::Subscriber lines_, debug_images_, markers_;
 };
 
 /// The trackers, one for each camera.
@@ -188,9 +203,13 @@ int run(const Arguments& arguments) {
   send(cameras, arguments.rate_hz, 1.0, image);  // the first images take longer
   if (arguments.flood_s > 0.0) send(cameras, 10.0 * arguments.rate_hz, arguments.flood_s, image);
   std::size_t lost = 0;
-  for (const auto& camera : cameras) camera->takeLatencies(lost);
+  for (const auto& camera : cameras) {
+    camera->takeLatencies(lost);
+    camera->takePicturesSeen();
+  }
 
   lost = 0;
+  int pictures = 0;
   const double before = processorTime(pid);
   send(cameras, arguments.rate_hz, arguments.seconds, image);
   const double share = 100.0 * (processorTime(pid) - before) / arguments.seconds;
@@ -198,11 +217,13 @@ int run(const Arguments& arguments) {
   for (const auto& camera : cameras) {
     const std::vector<double> its = camera->takeLatencies(lost);
     latencies.insert(latencies.end(), its.begin(), its.end());
+    pictures += camera->takePicturesSeen();
   }
   std::sort(latencies.begin(), latencies.end());
-  std::printf("| %s | %s | %zu | %.1f | %.1f | %.1f | %.0f | %.0f | %zu |\n", arguments.label.c_str(),
+  std::printf("| %s | %s | %zu | %.1f | %.1f | %.1f | %.0f | %.0f | %zu | %s |\n", arguments.label.c_str(),
               here ? "one process" : "TCP", latencies.size() + lost, quantile(latencies, 0.5),
-              quantile(latencies, 0.99), quantile(latencies, 1.0), share, residentMegabytes(pid), lost);
+              quantile(latencies, 0.99), quantile(latencies, 1.0), share, residentMegabytes(pid), lost,
+              arguments.watch ? std::to_string(pictures).c_str() : "-");
   return 0;
 }
 
@@ -216,7 +237,8 @@ int main(int argc, char** argv) {
   options.add_options()("label", po::value(&arguments.label))("cameras", po::value(&arguments.cameras))(
       "rate", po::value(&arguments.rate_hz))("seconds", po::value(&arguments.seconds))(
       "flood", po::value(&arguments.flood_s))("width", po::value(&arguments.width))(
-      "height", po::value(&arguments.height))("manager-pid", po::value(&arguments.manager_pid));
+      "height", po::value(&arguments.height))("watch", po::bool_switch(&arguments.watch))(
+      "manager-pid", po::value(&arguments.manager_pid));
   ros::init(argc, argv, "load_generator");
   try {
     po::variables_map values;
