@@ -44,7 +44,8 @@ def classes(description):
 def published():
     """Types of messages by topic: what the nodelets advertise, under the names that the launch files give them."""
     found = {}
-    for node, source in (('line_tracker', 'line_publisher'), ('line_mapper', 'line_mapper_nodelet')):
+    for node, source in (('line_tracker', 'line_publisher'), ('line_tracker', 'debug_image_publisher'),
+                         ('line_mapper', 'line_mapper_nodelet')):
         with open('{}/src/ros/{}.cpp'.format(cases.ROOT, source)) as file:
             text = file.read()
         for message, topic in re.findall(r'advertise<([\w:]+)>\("(\w+)"', text):

@@ -23,6 +23,10 @@ struct EdgeFit {
   std::array<float, 3> covariance_px{std::numeric_limits<float>::quiet_NaN(),
                                      std::numeric_limits<float>::quiet_NaN(),
                                      std::numeric_limits<float>::quiet_NaN()};
+  /// The part of covariance_px that the fit in the next image will not repeat; NaN as sigma_px [px^2]
+  std::array<float, 3> noise_px{std::numeric_limits<float>::quiet_NaN(),
+                                std::numeric_limits<float>::quiet_NaN(),
+                                std::numeric_limits<float>::quiet_NaN()};
 };
 
 /// Puts a line on the edge under it: looks for the steepest place of the right polarity on profiles across

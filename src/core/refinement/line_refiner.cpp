@@ -23,6 +23,8 @@ constexpr float kPeakShare = 0.3F;      // of the slope of the peak: what is und
 constexpr float kSigmaFloor = 0.009F;   // what sampling and rounding leave on a perfect edge [px]
 constexpr float kCorrelation =
     1.7F;  // variance of the fit over that of independent samples: neighbours err alike
+// Share of that variance that is new in each image: pixels and texture make the rest, which stays.
+constexpr float kNoiseShare = 0.6F;
 
 // The steep part of a blurred edge is not symmetrical: light falls off to one side, the gray values are a
 // curved function of it, or another edge is near. Where its middle lies is then off by a share of its width,
@@ -293,6 +295,10 @@ EdgeFit LineRefiner::fit(const cv::Mat& gray, const LineCurve& curve, float cont
   const float tilts = variance * weighted.tilt_tilt + kFloor + kBiasTilt * blur;
   const float both = 2.0F * variance * weighted.offset_tilt;
   result.covariance_px = {offsets - both + tilts, offsets - tilts, offsets + both + tilts};
+  const float noise = kNoiseShare * variance;
+  result.noise_px = {noise * (weighted.offset_offset - 2.0F * weighted.offset_tilt + weighted.tilt_tilt),
+                     noise * (weighted.offset_offset - weighted.tilt_tilt),
+                     noise * (weighted.offset_offset + 2.0F * weighted.offset_tilt + weighted.tilt_tilt)};
   const Eigen::Vector2f normal = line.normal();
   result.segment = {line.start + fit.at(-1.0F) * normal, line.end + fit.at(1.0F) * normal};
   return result;

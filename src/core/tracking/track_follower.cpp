@@ -108,7 +108,7 @@ void TrackFollower::follow(const MotionPrediction& motion, const ImagePyramid& p
   const float moved = std::max((flow.segment.start - state.reference.start).norm(),
                                (flow.segment.end - state.reference.end).norm());
   state.template_due = moved >= method_.dead_band_px || flow.residual > method_.max_kept_residual;
-  line.segment = state.template_due ? flow.segment : state.reference;
+  if (state.template_due) line.segment = flow.segment;
   state.followed = line.segment;
   line.residual = flow.residual;
   ++line.age;

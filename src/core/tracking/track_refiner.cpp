@@ -2,12 +2,18 @@
 
 #include <cmath>
 
+#include "tracking/edge_filter.h"
+
 namespace tet_line_tracker {
 namespace {
 
 /// A line that the border has just cut has shown less of itself to the flow: its edge must make up for it.
 /// Over min_support.
 constexpr float kCutSupport = 1.2F;
+
+// Deviation of what the flow adds to the place of a line across itself [px].
+constexpr float kFlowSigma = 0.15F;
+constexpr float kStillSigma = 0.02F;  ///< of a line inside the dead band
 
 }  // namespace
 
@@ -37,7 +43,11 @@ void TrackRefiner::refine(const cv::Mat& image, std::uint64_t number, TrackedLin
   const LineSegment found = fit.segment;
   if (method_.grower && method_.grower->growTracked(image, area_, number, line, fit, state.bend)) {
     state.setGrown(found, fit.segment);
+  } else {
+    const float flow_sigma = state.template_due ? kFlowSigma : kStillSigma;
+    fit = updateEdge({curve.chord, state.noise_px, flow_sigma}, fit);
   }
+  state.noise_px = fit.noise_px;
   state.support = fit.support;
   state.contrast = fit.contrast;
   line.segment = fit.segment;

@@ -13,8 +13,8 @@
 
 namespace tet_line_tracker {
 
-/// Moves one track to the edge under it, and lets it grow along that. For methods that have a refiner.
-/// Const: tracks are refined in parallel.
+/// Moves one track to the edge under it, as far as that is seen better than it was predicted, and lets it
+/// grow along that. For methods that have a refiner. Const: tracks are refined in parallel.
 class TrackRefiner {
  public:
   TrackRefiner(const TrackingMethod& method, const VisibleArea& area, const LineTrackerParameters& parameters)

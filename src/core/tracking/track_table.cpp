@@ -45,6 +45,7 @@ void TrackTable::add(const EdgeFit& edge, const LineBend& bend) {
   TrackState& state = states_[lines_.size() - 1];
   state.contrast = edge.contrast;
   state.bend = bend;
+  state.noise_px = edge.noise_px;
   state.template_due = true;
   state.start_parallax.setZero();
   state.end_parallax.setZero();
