@@ -93,6 +93,15 @@ TEST(EdgeFilter, EndsThatErrAlikeTellOfEachOther) {
   EXPECT_GT(updated.noise_px[1], 0.0F);
 }
 
+TEST(EdgeFilter, WhatIsCommonToBothEndsIsWeighedOnce) {
+  EdgePrediction predicted = predictionOf(0.2F, 0.2F, 0.2F, 0.0F);
+  predicted.noise_px[1] = predicted.noise_px[0];
+  const EdgeFit updated = updateEdge(predicted, fitOf(0.0F, 0.0F, 0.2F));
+  // Variances of the common distance: 0.04 px^2, of the mean of two measured ends 0.02.
+  EXPECT_NEAR(kTrue.distance(updated.segment.start), 0.2F / 3.0F, 1e-3F);
+  EXPECT_NEAR(kTrue.distance(updated.segment.end), 0.2F / 3.0F, 1e-3F);
+}
+
 TEST(EdgeFilter, MovementThatTheFlowHasNotSeenIsBelievedAtOnce) {
   const EdgeFit updated = updateEdge(predictionOf(2.0F, 2.0F, 0.05F, 0.05F), fitOf(0.0F, 0.0F, 0.2F));
   EXPECT_LT(std::abs(errorOf(updated.segment)), 0.03F);
