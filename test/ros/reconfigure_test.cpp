@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <fstream>
 #include <future>
-#include <iterator>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
@@ -281,11 +280,10 @@ TEST(Reconfigure, DynparamListsGetsSetsDumpsAndLoadsWhileImagesComeAndNoneIsLost
   const ShellResult again = dynparam("get /commanded");
   EXPECT_NE(again.output.find("'min_length': 40.0"), std::string::npos)
       << "a node that starts again has the values of the one before: " << again.output;
-  std::ifstream dumped(dump.path());
-  const std::string text{std::istreambuf_iterator<char>(dumped), std::istreambuf_iterator<char>()};
-  if (text.find("!!python/object/new:") != std::string::npos)
+  const ShellResult load = dynparam("load /commanded " + dump.path());
+  if (load.output.find("could not determine a constructor for the tag") != std::string::npos)
     GTEST_SKIP() << "the dynparam of this system, as of Debian 11, cannot load what it has dumped";
-  EXPECT_EQ(dynparam("load /commanded " + dump.path()).status, 0);
+  EXPECT_EQ(load.status, 0) << load.output;
   const ShellResult loaded = dynparam("get /commanded");
   EXPECT_NE(loaded.output.find("'min_length': 30.0"), std::string::npos) << loaded.output;
   EXPECT_NE(loaded.output.find("'prior': 'auto'"), std::string::npos) << loaded.output;
