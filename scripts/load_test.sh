@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Puts the tracker under load and prints a table: latency from an image to its lines, processor, memory, images lost.
+# Puts the tracker under load and prints a table: latency from an image to its lines, processor, memory, images lost, debug images seen.
 #
 #   scripts/load_test.sh [SECONDS]
 #
