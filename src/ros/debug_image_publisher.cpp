@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kDisplayQueue = 2;
 constexpr std::size_t kWaiting = 2;  ///< images that wait for the painter
-constexpr int kNice = 10;
+constexpr int kNice = 10;            ///< of the painter; the tracker has 0
 
 sensor_msgs::ImageConstPtr toDebugImage(const LineFrame& frame, const std::string& frame_id,
                                         const cv::Mat& gray, TrackPainter& painter) {
@@ -51,8 +51,7 @@ void DebugImagePublisher::publish(const LineFrame& frame, const std::string& fra
 }
 
 void DebugImagePublisher::paintAll() {
-  // Of this thread alone, as Linux has it; where it cannot be set, the picture has as much right as the
-  // lines.
+  // Linux sets the nice value of the calling thread alone. Without it the picture is only less polite.
   setpriority(PRIO_PROCESS, 0, kNice);
   TrackPainter painter;
   while (const auto painting = queue_.pop()) {

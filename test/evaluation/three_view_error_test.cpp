@@ -182,17 +182,12 @@ TEST(ThreeViewMeasures, LeaveOutOfTheCountWhatHasNoPose) {
   EXPECT_EQ(measureThreeViews(trackWithJump(*camera, poses, 0.0), poses, *camera).triples, 2U);
 }
 
-TEST(ThreeViewMeasures, GiveTheShareOfTheExactJudgeWithinHalfAPointOnASimulatedFlight) {
-  std::unique_ptr<LineDetector> lsd;
-  try {
-    lsd = makeLineDetector("lsd");
-  } catch (const std::invalid_argument& error) {
-    GTEST_SKIP() << error.what();
-  }
+/// Of the tracker without a prior and of LK endpoints, which both go astray, on a fast flight.
+std::array<TripleAgreement, 2> judgeFlight(std::uint64_t seed) {
   SimulationOptions options;
   options.motion = "fast";
   options.seconds = 2.0;
-  options.seed = 4;
+  options.seed = seed;
   options.threads = 2;
   const auto camera = makeCameraModel(defaultSimulatedCamera());
   Simulation simulation(options, camera);
@@ -200,7 +195,7 @@ TEST(ThreeViewMeasures, GiveTheShareOfTheExactJudgeWithinHalfAPointOnASimulatedF
   without_prior.motion.prior = "none";
   without_prior.plausibility.max_edge_offset = 10.0;
   LineTracker tracker(without_prior);
-  LkEndpoints endpoints(LineTrackerParameters{}, std::move(lsd));
+  LkEndpoints endpoints(LineTrackerParameters{}, makeLineDetector("lsd"));
   const std::array<LineFrontEnd*, 2> front_ends{&tracker, &endpoints};
   for (LineFrontEnd* front_end : front_ends) front_end->setCamera(camera);
   PoseTrack poses;
@@ -213,16 +208,34 @@ TEST(ThreeViewMeasures, GiveTheShareOfTheExactJudgeWithinHalfAPointOnASimulatedF
   }
   poses.sort();
   const SceneTruth truth(simulation.geometry(), poses, camera);
-  double lowest = 1.0;
-  for (const std::vector<LineFrame>& seen : frames) {
-    const ThreeViewMeasures measures = measureThreeViews(seen, poses, *camera);
-    const TripleAgreement agreement = compareJudges(measures, measureTracks(seen, false, &truth).pairs);
+  std::array<TripleAgreement, 2> agreements;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const ThreeViewMeasures measures = measureThreeViews(frames[k], poses, *camera);
     EXPECT_GT(measures.judged.size(), 500U);
     EXPECT_LT(measures.left_out_ratio, 0.05);
-    EXPECT_NEAR(agreement.three_view_ratio, agreement.exact_ratio, 0.005);
-    lowest = std::min(lowest, agreement.exact_ratio);
+    agreements[k] = compareJudges(measures, measureTracks(frames[k], false, &truth).pairs);
   }
-  EXPECT_LT(lowest, 0.98) << "where all is right both judges agree for nothing";
+  return agreements;
+}
+
+TEST(ThreeViewMeasures, GiveTheShareOfTheExactJudgeWithinHalfAPointOnSimulatedFlights) {
+  try {
+    makeLineDetector("lsd");
+  } catch (const std::invalid_argument& error) {
+    GTEST_SKIP() << error.what();
+  }
+  const std::array<std::uint64_t, 3> seeds{3, 4, 5};
+  std::array<double, 2> three_views{};
+  std::array<double, 2> exact{};
+  for (const std::uint64_t seed : seeds) {
+    const std::array<TripleAgreement, 2> agreements = judgeFlight(seed);
+    for (std::size_t k = 0; k < 2; ++k) {
+      three_views[k] += agreements[k].three_view_ratio / static_cast<double>(seeds.size());
+      exact[k] += agreements[k].exact_ratio / static_cast<double>(seeds.size());
+    }
+  }
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(three_views[k], exact[k], 0.005);
+  EXPECT_LT(std::min(exact[0], exact[1]), 0.98) << "where all is right both judges agree for nothing";
 }
 
 }  // namespace

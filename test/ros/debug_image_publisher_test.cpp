@@ -5,10 +5,14 @@
 #include <sensor_msgs/Image.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "tet_line_tracker/camera/camera_model.h"
 #include "wait_for.h"
 
 namespace tet_line_tracker {
@@ -55,12 +59,16 @@ class DebugImagePublisherTest : public testing::Test {
 
 TEST_F(DebugImagePublisherTest, PaintsThePixelsOfItsTimeWhateverBecomesOfTheImage) {
   look();
+  // The painter is busy with the first one while the second one changes.
+  const cv::Mat large(2160, 3840, CV_8UC1, cv::Scalar(90));
+  publisher_.publish(frameOf(0, large), "cam", large);
   cv::Mat gray(480, 752, CV_8UC1, cv::Scalar(90));
-  publisher_.publish(frameOf(0, gray), "cam", gray);
+  publisher_.publish(frameOf(1, gray), "cam", gray);
   gray.setTo(cv::Scalar(10));
-  ASSERT_TRUE(waitFor([this] { return hasSeen(0); }));
-  EXPECT_TRUE(
-      std::all_of(seen_[0]->data.begin(), seen_[0]->data.end(), [](int value) { return value == 90; }));
+  ASSERT_TRUE(waitFor([this] { return hasSeen(1); }));
+  const std::vector<std::uint8_t>& data = seen_.back()->data;
+  EXPECT_EQ(data.size(), 3 * gray.total());
+  EXPECT_TRUE(std::all_of(data.begin(), data.end(), [](int value) { return value == 90; }));
 }
 
 TEST_F(DebugImagePublisherTest, ShowsTheNewestOfABurstThatIsTooFastToPaintAndKeepsTheOrder) {
@@ -69,9 +77,38 @@ TEST_F(DebugImagePublisherTest, ShowsTheNewestOfABurstThatIsTooFastToPaintAndKee
   constexpr int kBurst = 60;
   for (int i = 0; i < kBurst; ++i) publisher_.publish(frameOf(i, gray), "cam", gray);
   ASSERT_TRUE(waitFor([this] { return hasSeen(kBurst - 1); }));
+  EXPECT_LT(seen_.size(), static_cast<std::size_t>(kBurst));
   EXPECT_TRUE(std::is_sorted(seen_.begin(), seen_.end(), [](const auto& one, const auto& other) {
     return one->header.stamp < other->header.stamp;
   }));
+}
+
+TEST_F(DebugImagePublisherTest, PaintsLinesAsTheCameraBendsThem) {
+  look();
+  CameraCalibration calibration;
+  calibration.fx = calibration.fy = 460.0;
+  calibration.cx = 375.5;
+  calibration.cy = 239.5;
+  calibration.model = "plumb_bob";
+  calibration.distortion = {-0.29, 0.08, 0.0, 0.0};
+  const auto camera = makeCameraModel(calibration);
+  const cv::Mat gray(480, 752, CV_8UC1, cv::Scalar(90));
+  LineFrame frame = frameOf(0, gray);
+  TrackedLine line;
+  line.segment = {{60.0F, 40.0F}, {700.0F, 40.0F}};
+  frame.lines.push_back(line);
+  const auto paintedBy = [&](std::shared_ptr<const CameraModel> lens) {
+    TrackPainter painter(plainStyle());
+    painter.setCamera(std::move(lens));
+    cv::Mat bgr;
+    painter.paint(gray, frame, bgr);
+    return std::vector<std::uint8_t>(bgr.datastart, bgr.dataend);
+  };
+  publisher_.setCamera(camera);
+  publisher_.publish(frame, "cam", gray);
+  ASSERT_TRUE(waitFor([this] { return hasSeen(0); }));
+  EXPECT_EQ(seen_[0]->data, paintedBy(camera));
+  EXPECT_NE(seen_[0]->data, paintedBy(nullptr));
 }
 
 TEST_F(DebugImagePublisherTest, SurvivesAnImageThatCannotBePainted) {

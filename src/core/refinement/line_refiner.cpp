@@ -215,6 +215,12 @@ WeightedFit fitOffsets(const kernels::EdgeSamples& samples, float min_slope) {
   return weighted;
 }
 
+/// Covariance of the distances at -1 and 1 from that of offset and tilt: var(start), cov, var(end).
+std::array<float, 3> covarianceOfEnds(float offset_offset, float offset_tilt, float tilt_tilt) {
+  const float twice = 2.0F * offset_tilt;
+  return {offset_offset - twice + tilt_tilt, offset_offset - tilt_tilt, offset_offset + twice + tilt_tilt};
+}
+
 }  // namespace
 
 float LineRefiner::contrastOf(const cv::Mat& gray, const LineCurve& line) const {
@@ -293,12 +299,9 @@ EdgeFit LineRefiner::fit(const cv::Mat& gray, const LineCurve& curve, float cont
   // Of the ends, at -1 and 1. The floor is of offset and tilt alike: a sampling error differs along the line.
   const float offsets = variance * weighted.offset_offset + kFloor + blur;
   const float tilts = variance * weighted.tilt_tilt + kFloor + kBiasTilt * blur;
-  const float both = 2.0F * variance * weighted.offset_tilt;
-  result.covariance_px = {offsets - both + tilts, offsets - tilts, offsets + both + tilts};
-  const float noise = kNoiseShare * variance;
-  result.noise_px = {noise * (weighted.offset_offset - 2.0F * weighted.offset_tilt + weighted.tilt_tilt),
-                     noise * (weighted.offset_offset - weighted.tilt_tilt),
-                     noise * (weighted.offset_offset + 2.0F * weighted.offset_tilt + weighted.tilt_tilt)};
+  result.covariance_px = covarianceOfEnds(offsets, variance * weighted.offset_tilt, tilts);
+  result.noise_px = covarianceOfEnds(weighted.offset_offset, weighted.offset_tilt, weighted.tilt_tilt);
+  for (float& element : result.noise_px) element *= kNoiseShare * variance;
   const Eigen::Vector2f normal = line.normal();
   result.segment = {line.start + fit.at(-1.0F) * normal, line.end + fit.at(1.0F) * normal};
   return result;

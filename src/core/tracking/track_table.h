@@ -27,18 +27,18 @@ struct TrackState {
   /// Movement of the ends beyond the rotation of the camera, predicted for the next image [px]
   Eigen::Vector2f start_parallax{Eigen::Vector2f::Zero()};
   Eigen::Vector2f end_parallax{Eigen::Vector2f::Zero()};
-  LineDepth depth;  ///< of the ends in the last image
+  LineDepth depth;                  ///< of the ends in the last image
+  std::array<float, 3> noise_px{};  ///< EdgeFit::noise_px of the line as it was published last [px^2]
 
   // Of the step from the last image to this one:
-  LineSegment rotated;              ///< the line of the last image, moved by the rotation of the camera [px]
-  LineSegment predicted;            ///< the same, moved by the predicted parallax as well [px]
-  LineStep step;                    ///< both images' ends as rays
-  LineDepth expected_depth;         ///< of the ends in the image before, in units of 1 / this step
-  bool depth_conflict{false};       ///< by how it moved it would lie behind the camera, or its depth jumps
-  LineSegment followed;             ///< where the flow found the line [px]
-  float edge_offset{0.0F};          ///< of the edge from `followed`, in the middle of what is seen of it [px]
-  std::array<float, 3> noise_px{};  ///< EdgeFit::noise_px of the line as it is published
-  float support{1.0F};              ///< share of the line that lies on an edge, 0..1
+  LineSegment rotated;         ///< the line of the last image, moved by the rotation of the camera [px]
+  LineSegment predicted;       ///< the same, moved by the predicted parallax as well [px]
+  LineStep step;               ///< both images' ends as rays
+  LineDepth expected_depth;    ///< of the ends in the image before, in units of 1 / this step
+  bool depth_conflict{false};  ///< by how it moved it would lie behind the camera, or its depth jumps
+  LineSegment followed;        ///< where the flow found the line [px]
+  float edge_offset{0.0F};     ///< of the edge from `followed`, in the middle of what is seen of it [px]
+  float support{1.0F};         ///< share of the line that lies on an edge, 0..1
   LossReason loss{LossReason::kCount};  ///< kCount: not lost
 
   /// The line as it was found in this image has grown along itself from `before` to `after`: its templates

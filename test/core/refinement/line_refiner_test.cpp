@@ -1,5 +1,6 @@
 #include "tet_line_tracker/refinement/line_refiner.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -196,6 +197,22 @@ TEST(LineRefiner, ALineThatIsNowhereComesBackWithoutSupport) {
       EXPECT_EQ(refiner.fit(image, line, 60.0F).support, 0.0F) << value;
     }
   }
+}
+
+TEST(LineRefiner, NoiseIsMoreThanHalfOfTheVarianceOfAFaintEdgeAndNothingOfABlur) {
+  const LineRefiner refiner(LineRefinerParameters{});
+  const LineSegment truth = along(0.3F, 100.0F, kMiddle);
+  const auto noiseShares = [&](float contrast, float noise, float width) {
+    const cv::Mat image = edgeImage(0.3F, contrast, noise, kMiddle, width);
+    const EdgeFit fit = refiner.fit(image, truth, refiner.contrastOf(image, truth));
+    return std::array<float, 2>{fit.noise_px[0] / fit.covariance_px[0],
+                                fit.noise_px[2] / fit.covariance_px[2]};
+  };
+  for (const float share : noiseShares(15.0F, 4.0F, 0.6F)) {
+    EXPECT_GT(share, 0.5F);
+    EXPECT_LT(share, 0.6F);
+  }
+  for (const float share : noiseShares(80.0F, 0.5F, 2.2F)) EXPECT_LT(share, 0.05F);
 }
 
 TEST(LineRefiner, ABlurredEdgeMayBeBesideItsPlaceAlikeAtBothEnds) {

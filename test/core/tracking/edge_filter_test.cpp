@@ -105,6 +105,7 @@ TEST(EdgeFilter, WhatIsCommonToBothEndsIsWeighedOnce) {
 TEST(EdgeFilter, MovementThatTheFlowHasNotSeenIsBelievedAtOnce) {
   const EdgeFit updated = updateEdge(predictionOf(2.0F, 2.0F, 0.05F, 0.05F), fitOf(0.0F, 0.0F, 0.2F));
   EXPECT_LT(std::abs(errorOf(updated.segment)), 0.03F);
+  EXPECT_LT(std::abs(kTrue.distance(updated.segment.end)), 0.03F);
 }
 
 TEST(EdgeFilter, WhatErrsAlikeInAllImagesIsNotAveraged) {
