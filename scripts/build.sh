@@ -38,7 +38,7 @@ if [ "${CI:-}" = true ] && ! configured TET_WARNINGS_AS_ERRORS; then options+=(-
 
 # CMake leaves the displays of rviz out where these are missing, and does not look again by itself.
 displays=false
-if grep -qsE '^(Qt5|rviz)_DIR:PATH=.*-NOTFOUND$' "$build/CMakeCache.txt" && areInstalled "${packages_displays[@]}"; then
+if grep -qsE '^(Qt[56]|rviz)_DIR:PATH=.*-NOTFOUND$' "$build/CMakeCache.txt" && areInstalled "${packages_displays[@]}"; then
   displays=true
 fi
 

@@ -42,8 +42,13 @@ else
   packages_run=(libdiagnostic-aggregator-dev libdiagnostic-aggregator-tools python3-dynamic-reconfigure
     libnodeletlib-tools python3-diagnostic-msgs python3-nav-msgs python3-rosbag python3-roslaunch python3-rosnode python3-rosservice
     python3-rostopic python3-sensor-msgs python3-std-srvs python3-tf2-msgs python3-visualization-msgs rosbash rosout tf2-tools)
+  # The Qt of rviz, and what draws its icons.
+  case $(. /etc/os-release && echo "$ID ${VERSION_ID:-}") in
+    "debian 11" | "debian 12" | ubuntu*) packages_qt=(qtbase5-dev libqt5svg5) ;;
+    *) packages_qt=(qt6-base-dev qt6-svg-plugins) ;;
+  esac
   # librviz-dev of Debian 11 does not ask for all that it links.
-  packages_displays=(libopengl-dev librviz-dev qtbase5-dev)
+  packages_displays=(libopengl-dev librviz-dev "${packages_qt[@]}")
   packages_rviz=("${packages_displays[@]}" libgl1-mesa-dri rviz)
   packages_test=("${packages_rviz[@]}" libgtest-dev librostest-dev python3-matplotlib python3-rostest
     python3-yaml xvfb)

@@ -38,10 +38,10 @@ class ManagedNodelet {
     request.request.name = name_;
     return ros::service::call("/manager/unload_nodelet", request) && request.response.success != 0;
   }
-  /// Whether the process of the manager still answers.
+  /// Whether the process of the manager still answers. A busy machine may lose one call.
   static bool managerLives() {
     nodelet::NodeletList list;
-    return ros::service::call("/manager/list", list);
+    return ros::service::call("/manager/list", list) || ros::service::call("/manager/list", list);
   }
 
  private:
