@@ -66,6 +66,7 @@ apt-get update && apt-get install -y --no-install-recommends ${missing[*]}"
   as_root+=(env DEBIAN_FRONTEND=noninteractive)
   echo "Installing ${#missing[@]} packages and what they need (up to 0.5 GB to download): ${missing[*]}"
   mkdir -p "$build"
+  : >"$log"
   if ! compgen -G '/var/lib/apt/lists/*_Packages*' >/dev/null; then
     "${as_root[@]}" apt-get update </dev/null >"$log" 2>&1 || fail "apt-get update failed: $(tail -n 1 "$log")"
   fi
@@ -98,7 +99,7 @@ requireLocalhost() {
 }
 
 # Builds the named targets with the sanitizers that `sanitizers` names, in a folder of their own; those of "fuzzer" by clang, with
-# libFuzzer as the driver of the fuzzers; "coverage" has the counters of coverage.sh alone.
+# libFuzzer as the driver of the fuzzers.
 sanitizers=address,undefined
 sanitized=$build/sanitized
 buildSanitized() {
@@ -111,9 +112,6 @@ buildSanitized() {
       sanitized=$build/sanitized_fuzzer
       options=(-DCMAKE_CXX_COMPILER=clang++ -DTET_LIBFUZZER=ON)
       flags="-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined" ;;
-    coverage)
-      sanitized=$build/counted
-      flags=--coverage ;;
     # With counters for coverage.sh --core.
     *) flags+=" -fno-sanitize-recover=undefined --coverage" ;;
   esac
