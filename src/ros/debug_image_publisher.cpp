@@ -33,8 +33,11 @@ sensor_msgs::ImageConstPtr toDebugImage(const LineFrame& frame, const std::strin
 
 }  // namespace
 
-DebugImagePublisher::DebugImagePublisher(ros::NodeHandle& node, const TrackPainter::Style& style)
+DebugImagePublisher::DebugImagePublisher(ros::NodeHandle& node, const TrackPainter::Style& style,
+                                         double rate_hz)
     : style_(style),
+      rate_hz_(rate_hz),
+      throttle_(rate_hz),
       publisher_(image_transport::ImageTransport(node).advertise("debug_image", kDisplayQueue)),
       queue_(kWaiting),
       thread_(&DebugImagePublisher::paintAll, this) {}
@@ -44,8 +47,13 @@ DebugImagePublisher::~DebugImagePublisher() {
   thread_.join();
 }
 
+void DebugImagePublisher::setRate(double rate_hz) {
+  if (rate_hz != rate_hz_) throttle_ = PublishThrottle(rate_hz);
+  rate_hz_ = rate_hz;
+}
+
 void DebugImagePublisher::publish(const LineFrame& frame, const std::string& frame_id, const cv::Mat& gray) {
-  if (publisher_.getNumSubscribers() == 0) return;
+  if (publisher_.getNumSubscribers() == 0 || !throttle_.pass(frame.stamp_ns)) return;
   // The pixels may be those of a message that goes when the tracker is done with it.
   queue_.push({frame, frame_id, gray.clone(), style_, camera_});
 }

@@ -27,13 +27,14 @@ LinePublisher::LinePublisher(ros::NodeHandle& node, const NodeParameters& parame
       lines_(node.advertise<LineArray>("lines", kLinesQueue)),
       markers_(node.advertise<visualization_msgs::MarkerArray>("markers", kDisplayQueue)),
       statistics_(node.advertise<TrackingStatistics>("statistics", kLinesQueue)),
-      debug_image_(node, styleOf(parameters)) {}
+      debug_image_(node, styleOf(parameters), parameters.debug_image_rate) {}
 
 void LinePublisher::setParameters(const NodeParameters& parameters) {
   if (parameters.publish_rate != publish_rate_) throttle_ = PublishThrottle(parameters.publish_rate);
   publish_rate_ = parameters.publish_rate;
   marker_builder_.setIds(parameters.marker_ids);
   debug_image_.setStyle(styleOf(parameters));
+  debug_image_.setRate(parameters.debug_image_rate);
 }
 
 bool LinePublisher::publish(const LineFrame& frame, const std::string& frame_id, const cv::Mat& gray,

@@ -87,6 +87,8 @@ ParameterTable tableOf(NodeParameters& p) {
   table.add("marker_ids", p.marker_ids, "Ids beside the lines of `~markers`");
   table.add("debug_image_ids", p.debug_image_ids,
             "Ids on `~debug_image`, where there is room for them, oldest tracks first");
+  table.add("debug_image_rate", p.debug_image_rate, 0.0, 1000.0, "Hz",
+            "Debug images per second at most, counted by image stamps; 0: one for every message of lines");
   table.add("imu_wait", p.imu_wait, 0.0, 10.0, "s",
             "An image waits at most so long for the message of IMU or odometry after it; then its motion is "
             "predicted from the images");

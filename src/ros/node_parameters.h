@@ -18,6 +18,7 @@ struct NodeParameters {
   int queue_size{2};                 ///< images that wait for their turn at most, 1..1000
   bool marker_ids{false};            ///< ids beside the lines of ~markers
   bool debug_image_ids{true};        ///< ids on ~debug_image, where there is room
+  double debug_image_rate{30.0};     ///< debug images per second of image stamps, 0..1000 [Hz]; 0: all
   double imu_wait{0.05};             ///< an image waits so long for messages of IMU or odometry, 0..10 [s]
   std::string imu_rotation;  ///< "qx qy qz qw": takes directions in the IMU's frame to the camera's; empty:
                              ///< ask tf

@@ -52,7 +52,7 @@ class DebugImagePublisherTest : public testing::Test {
   }
 
   ros::NodeHandle node_{testing::UnitTest::GetInstance()->current_test_info()->name()};
-  DebugImagePublisher publisher_{node_, plainStyle()};
+  DebugImagePublisher publisher_{node_, plainStyle(), 0.0};
   std::vector<sensor_msgs::Image::ConstPtr> seen_;
   ros::Subscriber in_;
 };
@@ -81,6 +81,22 @@ TEST_F(DebugImagePublisherTest, ShowsTheNewestOfABurstThatIsTooFastToPaintAndKee
   EXPECT_TRUE(std::is_sorted(seen_.begin(), seen_.end(), [](const auto& one, const auto& other) {
     return one->header.stamp < other->header.stamp;
   }));
+}
+
+TEST_F(DebugImagePublisherTest, PaintsNoMoreThanItsRateByTheStamps) {
+  look();
+  const cv::Mat gray(24, 32, CV_8UC1, cv::Scalar(90));
+  publisher_.setRate(5.0);
+  for (int i = 0; i <= 40; ++i) {
+    if (i == 20) publisher_.setRate(0.0);
+    publisher_.publish(frameOf(i, gray), "cam", gray);
+    publisher_.setRate(i < 20 ? 5.0 : 0.0);  // the same again begins nothing anew
+    // All that pass are painted: none waits for the next one.
+    if (i % 4 == 0 || i > 20) {
+      ASSERT_TRUE(waitFor([&] { return hasSeen(i); })) << i;
+    }
+  }
+  EXPECT_EQ(seen_.size(), 5U + 21U);
 }
 
 TEST_F(DebugImagePublisherTest, PaintsLinesAsTheCameraBendsThem) {
@@ -123,7 +139,7 @@ TEST_F(DebugImagePublisherTest, SurvivesAnImageThatCannotBePainted) {
 TEST_F(DebugImagePublisherTest, EndsWhileImagesWait) {
   look();
   const cv::Mat gray(2160, 3840, CV_8UC1, cv::Scalar(90));
-  DebugImagePublisher other(node_, plainStyle());
+  DebugImagePublisher other(node_, plainStyle(), 0.0);
   for (int i = 0; i < 10; ++i) other.publish(frameOf(i, gray), "cam", gray);
 }
 
