@@ -1,5 +1,6 @@
 // Judges a stream of line messages against what PL-VINS's estimator takes for granted: from a bag, or live.
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <stdexcept>
@@ -47,8 +48,18 @@ void readBag(const std::string& path, const PlVinsTopics& topics, PlVinsContract
   }
 }
 
+bool isPublished(const std::string& topic) {
+  ros::master::V_TopicInfo published;
+  ros::master::getTopics(published);
+  return std::any_of(published.begin(), published.end(),
+                     [&](const auto& info) { return info.name == topic; });
+}
+
 void listen(const PlVinsTopics& topics, double seconds, PlVinsContract* contract) {
   ros::NodeHandle node;
+  if (isPublished(node.resolveName(topics.points)) || isPublished(node.resolveName(topics.output))) {
+    contract->joinRunningStream();
+  }
   constexpr int kQueue = 2000;  // as the estimator
   auto points = node.subscribe<sensor_msgs::PointCloud>(
       topics.points, kQueue, [contract](const sensor_msgs::PointCloud::ConstPtr& message) {

@@ -88,7 +88,8 @@ std::vector<ContractFault> PlVinsContract::takeFaults() {
 
 void PlVinsContract::pair() {
   using Rule = ContractFault::Rule;
-  while (!points_.empty() && !line_stamps_.empty()) {
+  if (joining_) join();
+  while (!joining_ && !points_.empty() && !line_stamps_.empty()) {
     const ros::Time point = points_.front();
     const ros::Time line = line_stamps_.front();
     if (point == line) {
@@ -123,6 +124,18 @@ void PlVinsContract::pair() {
       return;
     }
   }
+}
+
+void PlVinsContract::join() {
+  for (auto point = points_.begin(); point != points_.end(); ++point) {
+    const auto line = std::find(line_stamps_.begin(), line_stamps_.end(), *point);
+    if (line == line_stamps_.end()) continue;
+    points_.erase(points_.begin(), point);
+    line_stamps_.erase(line_stamps_.begin(), line);
+    joining_ = false;
+    return;
+  }
+  joining_ = std::min(points_.size(), line_stamps_.size()) < kJoined;
 }
 
 void PlVinsContract::judge(const sensor_msgs::PointCloud& lines) {

@@ -50,7 +50,12 @@ class PlVinsContract {
   static constexpr double kMaxTurn = 1.05;
   /// Messages after which an id may come back as a new line.
   static constexpr std::uint64_t kForgotten = 10000;
+  /// Messages of both topics after which a running stream is judged although no two had one stamp.
+  static constexpr std::size_t kJoined = 20;
 
+  /// For a judge that begins while messages flow, before the first one: the two topics are not heard from the
+  /// same moment on, so what comes before the first two with one stamp is no fault.
+  void joinRunningStream() { joining_ = true; }
   void addPoints(const ros::Time& stamp);
   void addLines(const sensor_msgs::PointCloud& lines);
   /// No more messages will come: point messages that still wait lack their lines.
@@ -73,11 +78,13 @@ class PlVinsContract {
   };
 
   void pair();
+  void join();
   void judge(const sensor_msgs::PointCloud& lines);
   void report(ContractFault::Rule rule, const ros::Time& stamp, double id, const std::string& text);
 
   std::deque<ros::Time> points_;
   std::deque<ros::Time> line_stamps_;
+  bool joining_{false};
   std::unordered_map<std::uint32_t, Seen> seen_;
   ros::Time last_stamp_;
   std::uint64_t messages_{0}, pairs_{0}, lines_{0}, ids_{0}, empty_messages_{0};

@@ -158,6 +158,38 @@ TEST(PlVinsContract, ReportsPointsThatAreLeftAtTheEnd) {
   EXPECT_EQ(found[1].stamp, ros::Time(12.9));
 }
 
+TEST(PlVinsContract, BeginsARunningStreamWithTheFirstPairAndFindsWhatIsLostAfterIt) {
+  for (const bool points_first : {true, false}) {
+    Stream stream = goodStream();
+    stream.lines.erase(stream.lines.begin() + 20);
+    PlVinsContract contract;
+    contract.joinRunningStream();
+    for (std::size_t i = 0; i < 30; ++i) {
+      if (points_first || i >= 3) contract.addPoints(stream.points[i]);
+      if ((!points_first || i >= 3) && i < 29) contract.addLines(stream.lines[i]);
+    }
+    contract.finish();
+    const std::vector<ContractFault> found = contract.takeFaults();
+    ASSERT_EQ(found.size(), 1U) << points_first;
+    EXPECT_EQ(found[0].rule, Rule::kMissingMessage);
+    EXPECT_EQ(found[0].stamp, ros::Time(12.0));
+    EXPECT_EQ(contract.pairs(), 26U);
+  }
+}
+
+TEST(PlVinsContract, JudgesARunningStreamThoughNoTwoStampsAreTheSame) {
+  Stream stream = goodStream();
+  for (auto& lines : stream.lines) lines.header.stamp += ros::Duration(0.01);
+  PlVinsContract contract;
+  contract.joinRunningStream();
+  for (std::size_t i = 0; i < 30; ++i) {
+    contract.addPoints(stream.points[i]);
+    contract.addLines(stream.lines[i]);
+  }
+  EXPECT_EQ(contract.faults().at(Rule::kStamp), 29U);
+  EXPECT_EQ(contract.pairs(), 0U);
+}
+
 class CheckPlVinsContract : public ::testing::Test {
  protected:
   std::string write(const Stream& stream) {
