@@ -4,7 +4,7 @@
 #   scripts/load_test.sh [SECONDS]
 #
 # SECONDS: of each row (60). Cameras and trackers in one process, which shares the images, and then with the trackers in a
-# nodelet manager of their own behind TCP. Nothing else should run on the machine.
+# nodelet manager of their own behind TCP; those of four cameras from multi_camera.launch. Nothing else should run on the machine.
 set -euo pipefail
 . "$(dirname "$0")/environment.sh"
 
@@ -17,21 +17,52 @@ cmake --build "$build" --target load_generator >"$build/load.log"
 sourceSetup "$build/devel/setup.bash"
 startMaster
 
+generate() {
+  "$build/devel/lib/tet_line_tracker/load_generator" --seconds "$seconds" "$@" 2>>"$build/load.log" </dev/null | grep '^|'
+}
+# In the background, with its process in `started`.
+start() {
+  "$@" >>"$build/load.log" 2>&1 </dev/null &
+  started=$!
+  children+=("$started")
+}
+end() {
+  kill -INT "$1" 2>/dev/null || true
+  wait "$1" || true
+}
+launchTrackers() {
+  start roslaunch tet_line_tracker multi_camera.launch cameras:="load0 load1 load2 load3" image:=image imu:=/imu \
+    manager:=/manager start_manager:=false
+}
+
 # row OPTIONS...: in one process, and over TCP.
 row() {
-  "$build/devel/lib/tet_line_tracker/load_generator" --seconds "$seconds" "$@" 2>>"$build/load.log" </dev/null | grep '^|'
-  rosrun nodelet nodelet manager __name:=manager >>"$build/load.log" 2>&1 </dev/null &
-  local manager=$!
-  children+=("$manager")
-  "$build/devel/lib/tet_line_tracker/load_generator" --seconds "$seconds" --manager-pid "$manager" "$@" 2>>"$build/load.log" \
-    </dev/null | grep '^|'
-  kill -INT "$manager"
-  wait "$manager" || true
+  local manager
+  generate "$@"
+  start rosrun nodelet nodelet manager __name:=manager
+  manager=$started
+  generate --manager-pid "$manager" "$@"
+  end "$manager"
+}
+# The same for four cameras, with the trackers as multi_camera.launch loads them.
+launchedRow() {
+  local manager trackers
+  launchTrackers
+  trackers=$started
+  generate --cameras 4 --launched "$@" __name:=manager
+  end "$trackers"
+  start rosrun nodelet nodelet manager __name:=manager
+  manager=$started
+  launchTrackers
+  trackers=$started
+  generate --cameras 4 --launched --manager-pid "$manager" "$@"
+  end "$trackers"
+  end "$manager"
 }
 echo "| load | transport | images | p50 [ms] | p99 [ms] | max [ms] | processor [% of a core] | memory [MB] | lost | debug images |"
 echo "|---|---|---|---|---|---|---|---|---|---|"
 row --label "752x480 at 200 Hz" --rate 200
 row --label "752x480 at 200 Hz, debug image and markers watched" --rate 200 --watch
-row --label "four cameras, 752x480 at 60 Hz" --cameras 4 --rate 60
+launchedRow --label "four cameras, 752x480 at 60 Hz" --rate 60
 row --label "1920x1080 at 60 Hz" --rate 60 --width 1920 --height 1080
 row --label "752x480 at 60 Hz, after 5 s at 600 Hz" --rate 60 --flood 5

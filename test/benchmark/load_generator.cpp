@@ -39,8 +39,9 @@ struct Arguments {
   double flood_s{0.0};  ///< before that, ten times the rate for so long
   int width{752};
   int height{480};
-  bool watch{false};   ///< somebody looks at the debug image and at the markers
-  int manager_pid{0};  ///< of /manager; 0: trackers in this process
+  bool watch{false};     ///< somebody looks at the debug image and at the markers
+  bool launched{false};  ///< trackers are loaded by multi_camera.launch
+  int manager_pid{0};    ///< of /manager; 0: trackers in this process
 };
 
 /// Processor time of a process [s].
@@ -72,9 +73,10 @@ class Camera {
       pictures_.push_back(synthetic_scene::picture(i, arguments.width, arguments.height));
     }
     ros::NodeHandle node;
+    const std::string tracker = "/" + name + (arguments.launched ? "/line_tracker" : "");
     images_ = node.advertise<sensor_msgs::Image>("/" + name + "/image", 10);
     lines_ = node.subscribe<LineArray>(
-        "/" + name + "/lines", 1000, [this](const LineArray::ConstPtr& lines) { take(*lines); },
+        tracker + "/lines", 1000, [this](const LineArray::ConstPtr& lines) { take(*lines); },
         ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
     info_ = node.advertise<sensor_msgs::CameraInfo>("/" + name + "/camera_info", 1, true);
     sensor_msgs::CameraInfo info = synthetic_scene::cameraInfo(ros::Time(1));
@@ -92,8 +94,8 @@ class Camera {
     info_.publish(info);
     if (!arguments.watch) return;
     debug_images_ = node.subscribe<sensor_msgs::Image>(
-        "/" + name + "/debug_image", 1, [this](const sensor_msgs::Image::ConstPtr&) { ++pictures_seen_; });
-    markers_ = node.subscribe("/" + name + "/markers", 1, &Camera::ignore);
+        tracker + "/debug_image", 1, [this](const sensor_msgs::Image::ConstPtr&) { ++pictures_seen_; });
+    markers_ = node.subscribe(tracker + "/markers", 1, &Camera::ignore);
   }
   bool isConnected() const {
     return images_.getNumSubscribers() == 1 && lines_.getNumPublishers() == 1 &&
@@ -146,8 +148,9 @@ class Camera {
 /// The trackers, one for each camera.
 class Trackers {
  public:
-  Trackers(const std::vector<std::string>& names, bool here)
-      : loader_(here ? new nodelet::Loader(false) : nullptr) {
+  Trackers(const std::vector<std::string>& names, bool here, bool launched)
+      : loader_(here ? new nodelet::Loader(launched) : nullptr) {
+    if (launched) return;
     for (const std::string& name : names) {
       if (!here) {
         managed_.push_back(std::make_unique<ManagedNodelet>(name));
@@ -191,7 +194,7 @@ int run(const Arguments& arguments) {
   for (int i = 0; i < arguments.cameras; ++i) names.push_back("load" + std::to_string(i));
   ros::AsyncSpinner spinner(1);
   spinner.start();
-  const Trackers trackers(names, here);
+  const Trackers trackers(names, here, arguments.launched);
   std::vector<std::unique_ptr<Camera>> cameras;
   for (const std::string& name : names) cameras.push_back(std::make_unique<Camera>(name, arguments));
   for (int tries = 0;
@@ -238,7 +241,7 @@ int main(int argc, char** argv) {
       "rate", po::value(&arguments.rate_hz))("seconds", po::value(&arguments.seconds))(
       "flood", po::value(&arguments.flood_s))("width", po::value(&arguments.width))(
       "height", po::value(&arguments.height))("watch", po::bool_switch(&arguments.watch))(
-      "manager-pid", po::value(&arguments.manager_pid));
+      "launched", po::bool_switch(&arguments.launched))("manager-pid", po::value(&arguments.manager_pid));
   ros::init(argc, argv, "load_generator");
   try {
     po::variables_map values;
