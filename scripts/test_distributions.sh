@@ -24,7 +24,7 @@ data=$(realpath -m "${TET_SHARED_DATA:-../shared/data}")
 if [ ${#suites[@]} -eq 0 ]; then suites=(bullseye bookworm trixie); fi
 
 # inClone COMMAND ...: in the clone that the commands of README made.
-inClone() { inFreshRoot sh -c 'cd /srv/docs/tet_line_tracker && exec "$@"' sh "$@"; }
+inClone() { inFreshRoot env TET_SHARED_DATA=/srv/shared/data sh -c 'cd /srv/docs/tet_line_tracker && exec "$@"' sh "$@"; }
 
 # step SUITE NAME COMMAND ...: the last line of what it says, or where all of it is.
 step() {

@@ -61,13 +61,17 @@ void listen(const PlVinsTopics& topics, double seconds, PlVinsContract* contract
     contract->joinRunningStream();
   }
   constexpr int kQueue = 2000;  // as the estimator
+  ros::Time last_points;
+  bool hears_points = true;
   auto points = node.subscribe<sensor_msgs::PointCloud>(
-      topics.points, kQueue, [contract](const sensor_msgs::PointCloud::ConstPtr& message) {
-        contract->addPoints(message->header.stamp);
+      topics.points, kQueue, [&](const sensor_msgs::PointCloud::ConstPtr& message) {
+        last_points = message->header.stamp;
+        contract->addPoints(last_points);
       });
   const auto lines = node.subscribe<sensor_msgs::PointCloud>(
-      topics.output, kQueue,
-      [contract](const sensor_msgs::PointCloud::ConstPtr& message) { contract->addLines(*message); });
+      topics.output, kQueue, [&](const sensor_msgs::PointCloud::ConstPtr& message) {
+        if (hears_points || message->header.stamp <= last_points) contract->addLines(*message);
+      });
   const auto listenUntil = [contract](const auto& done) {
     while (ros::ok() && !done()) {
       ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
@@ -78,6 +82,7 @@ void listen(const PlVinsTopics& topics, double seconds, PlVinsContract* contract
   listenUntil([&] { return interrupted() || (seconds > 0.0 && ros::SteadyTime::now() > end); });
   // The lines of the last points may still be on their way.
   points.shutdown();
+  hears_points = false;
   const ros::SteadyTime last = ros::SteadyTime::now() + ros::WallDuration(1.0);
   listenUntil([&] { return ros::SteadyTime::now() > last; });
 }
