@@ -191,11 +191,13 @@ int run(const Arguments& arguments) {
   const bool here = arguments.manager_pid == 0;
   const int pid = here ? getpid() : arguments.manager_pid;
   std::vector<std::string> names;
+  names.reserve(static_cast<std::size_t>(arguments.cameras));
   for (int i = 0; i < arguments.cameras; ++i) names.push_back("load" + std::to_string(i));
   ros::AsyncSpinner spinner(1);
   spinner.start();
   const Trackers trackers(names, here, arguments.launched);
   std::vector<std::unique_ptr<Camera>> cameras;
+  cameras.reserve(names.size());
   for (const std::string& name : names) cameras.push_back(std::make_unique<Camera>(name, arguments));
   for (int tries = 0;
        !std::all_of(cameras.begin(), cameras.end(), [](const auto& c) { return c->isConnected(); });) {
