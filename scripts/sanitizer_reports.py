@@ -18,6 +18,8 @@ import sys
 OWN = re.compile(r'(^|[ /])(src/(core|ros)|include/tet_line_tracker|test)/')
 TRANSPARENT = re.compile(r'libtsan\.so|/usr/include/(c\+\+|eigen3|opencv4)/|/usr/lib/gcc/')
 FREEING = re.compile(r'operator delete|free ')
+LOCKING = re.compile(r'pthread_mutex_')
+OF_OPENCV = re.compile(r'\(libopencv_')
 COUNTED = re.compile(r'(<null> )?boost::detail::sp_counted')
 FRAME = re.compile(r'^ +#\d+ (.*)$')
 ADDRESS = re.compile(r'<null> \((libtet_line_tracker\S+?)\+(0x[0-9a-f]+)\)')
@@ -67,10 +69,13 @@ def is_own(report):
     """Whether code of this project is at work in one of the stacks, and none frees what a boost::shared_ptr held.
 
     Messages are freed where the last pointer to them goes, mostly in roscpp, whose counting is not seen: the freeing looks
-    like a race with whoever read the message before. AddressSanitizer sees those who would read it after.
+    like a race with whoever read the message before. AddressSanitizer sees those who would read it after. Nor does one count with
+    a lock that OpenCV took: it lay on the stack of the caller, whose place is used anew when OpenCV's threads are done.
     """
     both = stacks(report)
     if any(FREEING.match(inner) and COUNTED.match(worker) for inner, worker in both):
+        return False
+    if any(LOCKING.match(inner) and OF_OPENCV.search(worker) for inner, worker in both):
         return False
     return any(OWN.search(worker) for _, worker in both)
 

@@ -53,6 +53,20 @@ WARNING: ThreadSanitizer: data race (pid=1)
         self.assertEqual(self.findings(thread_1=freed.format('boost::detail::sp_counted_base::release() <null>')), [])
         self.assertEqual(len(self.findings(thread_1=freed.format('tet_line_tracker::drop() ../../src/ros/a.cpp:1'))), 1)
 
+    def test_a_lock_of_opencv_that_lay_on_the_stack_does_not_count(self):
+        used_anew = '''==================
+WARNING: ThreadSanitizer: data race (pid=1)
+  Write of size 8 at 0x7b by main thread:
+    #0 memset <null> (libtsan.so.2+0x8b)
+    #1 tet_line_tracker::GradientImage::levels() const ../../src/core/image/gradient_image.cpp:38 (core+0x2)
+  Previous atomic read of size 1 at 0x7b by thread T1:
+    #0 pthread_mutex_lock <null> (libtsan.so.2+0x8b)
+    #1 {}
+==================
+'''
+        self.assertEqual(self.findings(thread_1=used_anew.format('<null> <null> (libopencv_imgproc.so.406+0xb)')), [])
+        self.assertEqual(len(self.findings(thread_1=used_anew.format('tet_line_tracker::Pool::run() ../../src/core/pool.cpp:1'))), 1)
+
     def test_every_report_of_addresses_and_undefined_behaviour_counts(self):
         self.assertEqual(len(self.findings(address_7='ERROR: AddressSanitizer', undefined_8='runtime error')), 2)
 
