@@ -17,6 +17,9 @@ case ${1:-} in
   --rest) parts=(rest) measured=true && shift ;;
 esac
 answerHelp "$@"
+if $measured && ! grep -qs '^TET_COVERAGE:BOOL=ON' "$build/CMakeCache.txt"; then
+  fail "the build has no counters: start scripts/build.sh --tests -DTET_COVERAGE=ON and scripts/test.sh before"
+fi
 report=$build/coverage
 mkdir -p "$report"
 requirePackages "${packages_coverage[@]}"

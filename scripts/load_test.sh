@@ -30,39 +30,30 @@ end() {
   kill -INT "$1" 2>/dev/null || true
   wait "$1" || true
 }
-launchTrackers() {
+# For four cameras, whose trackers multi_camera.launch loads into /manager.
+generateForLaunched() {
+  local trackers
   start roslaunch tet_line_tracker multi_camera.launch cameras:="load0 load1 load2 load3" image:=image imu:=/imu \
     manager:=/manager start_manager:=false
+  trackers=$started
+  generate --cameras 4 --launched "$@"
+  end "$trackers"
 }
 
-# row OPTIONS...: in one process, and over TCP.
+# row GENERATE OPTIONS...: in one process, and over TCP.
 row() {
-  local manager
-  generate "$@"
+  local generate=$1 manager
+  shift
+  $generate "$@" __name:=manager
   start rosrun nodelet nodelet manager __name:=manager
   manager=$started
-  generate --manager-pid "$manager" "$@"
-  end "$manager"
-}
-# The same for four cameras, with the trackers as multi_camera.launch loads them.
-launchedRow() {
-  local manager trackers
-  launchTrackers
-  trackers=$started
-  generate --cameras 4 --launched "$@" __name:=manager
-  end "$trackers"
-  start rosrun nodelet nodelet manager __name:=manager
-  manager=$started
-  launchTrackers
-  trackers=$started
-  generate --cameras 4 --launched --manager-pid "$manager" "$@"
-  end "$trackers"
+  $generate --manager-pid "$manager" "$@"
   end "$manager"
 }
 echo "| load | transport | images | p50 [ms] | p99 [ms] | max [ms] | processor [% of a core] | memory [MB] | lost | debug images |"
 echo "|---|---|---|---|---|---|---|---|---|---|"
-row --label "752x480 at 200 Hz" --rate 200
-row --label "752x480 at 200 Hz, debug image and markers watched" --rate 200 --watch
-launchedRow --label "four cameras, 752x480 at 60 Hz" --rate 60
-row --label "1920x1080 at 60 Hz" --rate 60 --width 1920 --height 1080
-row --label "752x480 at 60 Hz, after 5 s at 600 Hz" --rate 60 --flood 5
+row generate --label "752x480 at 200 Hz" --rate 200
+row generate --label "752x480 at 200 Hz, debug image and markers watched" --rate 200 --watch
+row generateForLaunched --label "four cameras, 752x480 at 60 Hz" --rate 60
+row generate --label "1920x1080 at 60 Hz" --rate 60 --width 1920 --height 1080
+row generate --label "752x480 at 60 Hz, after 5 s at 600 Hz" --rate 60 --flood 5

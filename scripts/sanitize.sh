@@ -19,7 +19,7 @@ if [ ${#tests[@]} -eq 0 ]; then
   case $part in
     core) mapfile -t tests < <(basename -s .cpp test/core/*/*_test.cpp | grep -v core_package_test) ;;
     # Launch files of the package and programs start programs of the build without sanitizers.
-    ros) mapfile -t tests < <(basename -s .cpp test/ros/*_test.cpp | grep -v -e euroc_launch_test -e line_subscriber_test) ;;
+    ros) mapfile -t tests < <(basename -s .cpp test/ros/*_test.cpp | grep -v -e check_plvins_contract_live_test -e euroc_launch_test -e line_subscriber_test) ;;
     thread) tests=(line_tracker_test newest_queue_test sensor_input_test silence_warning_test debug_image_publisher_test master_loss_test
       line_mapper_nodelet_test pl_vins_bridge_test reconfigure_test sim_time_test nodelet_life_test nodelet_test) ;;
   esac

@@ -36,7 +36,6 @@ sensor_msgs::ImageConstPtr toDebugImage(const LineFrame& frame, const std::strin
 DebugImagePublisher::DebugImagePublisher(ros::NodeHandle& node, const TrackPainter::Style& style,
                                          double rate_hz)
     : style_(style),
-      rate_hz_(rate_hz),
       throttle_(rate_hz),
       publisher_(image_transport::ImageTransport(node).advertise("debug_image", kDisplayQueue)),
       queue_(kWaiting),
@@ -45,11 +44,6 @@ DebugImagePublisher::DebugImagePublisher(ros::NodeHandle& node, const TrackPaint
 DebugImagePublisher::~DebugImagePublisher() {
   queue_.close();
   thread_.join();
-}
-
-void DebugImagePublisher::setRate(double rate_hz) {
-  if (rate_hz != rate_hz_) throttle_ = PublishThrottle(rate_hz);
-  rate_hz_ = rate_hz;
 }
 
 void DebugImagePublisher::publish(const LineFrame& frame, const std::string& frame_id, const cv::Mat& gray) {

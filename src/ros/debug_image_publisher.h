@@ -30,7 +30,7 @@ class DebugImagePublisher {
   /// For the images to come.
   void setStyle(const TrackPainter::Style& style) { style_ = style; }
   /// At most so many images per second of their stamps; 0: all.
-  void setRate(double rate_hz);
+  void setRate(double rate_hz) { throttle_.setRate(rate_hz); }
   /// Lines of the images to come are painted as this camera bends them; nullptr: straight.
   void setCamera(std::shared_ptr<const CameraModel> camera) { camera_ = std::move(camera); }
 
@@ -53,7 +53,6 @@ class DebugImagePublisher {
 
   TrackPainter::Style style_;
   std::shared_ptr<const CameraModel> camera_;
-  double rate_hz_;
   PublishThrottle throttle_;
   image_transport::Publisher publisher_;
   NewestQueue<Painting> queue_;

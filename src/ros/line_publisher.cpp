@@ -21,8 +21,7 @@ TrackPainter::Style styleOf(const NodeParameters& parameters) {
 }  // namespace
 
 LinePublisher::LinePublisher(ros::NodeHandle& node, const NodeParameters& parameters)
-    : publish_rate_(parameters.publish_rate),
-      throttle_(parameters.publish_rate),
+    : throttle_(parameters.publish_rate),
       marker_builder_(parameters.marker_ids),
       lines_(node.advertise<LineArray>("lines", kLinesQueue)),
       markers_(node.advertise<visualization_msgs::MarkerArray>("markers", kDisplayQueue)),
@@ -30,8 +29,7 @@ LinePublisher::LinePublisher(ros::NodeHandle& node, const NodeParameters& parame
       debug_image_(node, styleOf(parameters), parameters.debug_image_rate) {}
 
 void LinePublisher::setParameters(const NodeParameters& parameters) {
-  if (parameters.publish_rate != publish_rate_) throttle_ = PublishThrottle(parameters.publish_rate);
-  publish_rate_ = parameters.publish_rate;
+  throttle_.setRate(parameters.publish_rate);
   marker_builder_.setIds(parameters.marker_ids);
   debug_image_.setStyle(styleOf(parameters));
   debug_image_.setRate(parameters.debug_image_rate);

@@ -39,7 +39,6 @@ class LinePublisher {
   std::string debugImageTopic() const { return debug_image_.topic(); }
 
  private:
-  double publish_rate_;  ///< of throttle_
   PublishThrottle throttle_;
   MarkerBuilder marker_builder_;
   std::optional<std::uint32_t> epoch_;

@@ -16,6 +16,11 @@ PublishThrottle::PublishThrottle(double rate_hz) {
   tolerance_ns_ = std::llround(kTolerance * static_cast<double>(period_ns_));
 }
 
+void PublishThrottle::setRate(double rate_hz) {
+  const PublishThrottle other(rate_hz);
+  if (other.period_ns_ != period_ns_) *this = other;
+}
+
 bool PublishThrottle::pass(std::int64_t stamp_ns) {
   if (period_ns_ == 0) return true;
   if (!due_ns_ || stamp_ns < last_ns_) {

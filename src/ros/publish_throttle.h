@@ -19,6 +19,8 @@ class PublishThrottle {
   /// Whether the image with this stamp [ns] passes. A stamp before the one of the image before
   /// starts anew.
   bool pass(std::int64_t stamp_ns);
+  /// Of the images to come; another rate than before begins anew. Throws as the constructor.
+  void setRate(double rate_hz);
   /// The next image passes.
   void reset() { due_ns_.reset(); }
 

@@ -86,11 +86,9 @@ TEST_F(DebugImagePublisherTest, ShowsTheNewestOfABurstThatIsTooFastToPaintAndKee
 TEST_F(DebugImagePublisherTest, PaintsNoMoreThanItsRateByTheStamps) {
   look();
   const cv::Mat gray(24, 32, CV_8UC1, cv::Scalar(90));
-  publisher_.setRate(5.0);
   for (int i = 0; i <= 40; ++i) {
-    if (i == 20) publisher_.setRate(0.0);
-    publisher_.publish(frameOf(i, gray), "cam", gray);
     publisher_.setRate(i < 20 ? 5.0 : 0.0);  // the same again begins nothing anew
+    publisher_.publish(frameOf(i, gray), "cam", gray);
     // All that pass are painted: none waits for the next one.
     if (i % 4 == 0 || i > 20) {
       ASSERT_TRUE(waitFor([&] { return hasSeen(i); })) << i;

@@ -6,6 +6,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "tet_line_tracker/LineArray.h"
@@ -113,6 +114,32 @@ TEST_F(LinePublisherTest, PaintsTheImageWhileSomebodyLooks) {
   const std::size_t on_line = 3 * (9 * 32 + 11);
   EXPECT_FALSE(images[0].data[on_line] == 90 && images[0].data[on_line + 1] == 90 &&
                images[0].data[on_line + 2] == 90);
+}
+
+TEST(LinePublisher, PaintsAtDebugImageRateFromTheStartAndAfterAChange) {
+  ros::NodeHandle node("painted");
+  NodeParameters parameters;
+  parameters.debug_image_rate = 5.0;
+  LinePublisher publisher(node, parameters);
+  std::vector<std::uint64_t> stamps;
+  const ros::Subscriber in = node.subscribe<sensor_msgs::Image>(
+      "debug_image", 10,
+      [&](const sensor_msgs::Image::ConstPtr& message) { stamps.push_back(message->header.stamp.toNSec()); });
+  ASSERT_TRUE(waitFor([&] { return in.getNumPublishers() == 1; }));
+  const cv::Mat gray(24, 32, CV_8UC1, cv::Scalar(90));
+  std::vector<std::uint64_t> expected;
+  for (int i = 0; i < 10; ++i) {
+    if (i == 8) parameters.debug_image_rate = 10.0;
+    publisher.setParameters(parameters);
+    EXPECT_TRUE(publisher.publish(frameOf(i), "cam", gray, 0));
+    if (i != 0 && i != 4 && i != 8) continue;
+    expected.push_back(static_cast<std::uint64_t>(frameOf(i).stamp_ns));
+    ASSERT_TRUE(waitFor([&] { return stamps.size() == expected.size(); }));
+  }
+  publisher.publish(frameOf(10), "cam", gray, 0);
+  expected.push_back(static_cast<std::uint64_t>(frameOf(10).stamp_ns));
+  ASSERT_TRUE(waitFor([&] { return stamps.size() == expected.size(); }));
+  EXPECT_EQ(stamps, expected);
 }
 
 TEST_F(LinePublisherTest, SendsMarkersOfTheNormalisedLines) {
