@@ -129,8 +129,10 @@ TEST(LinePublisher, PaintsAtDebugImageRateFromTheStartAndAfterAChange) {
   const cv::Mat gray(24, 32, CV_8UC1, cv::Scalar(90));
   std::vector<std::uint64_t> expected;
   for (int i = 0; i < 10; ++i) {
-    if (i == 8) parameters.debug_image_rate = 10.0;
-    publisher.setParameters(parameters);
+    if (i == 8) {
+      parameters.debug_image_rate = 10.0;
+      publisher.setParameters(parameters);
+    }
     EXPECT_TRUE(publisher.publish(frameOf(i), "cam", gray, 0));
     if (i != 0 && i != 4 && i != 8) continue;
     expected.push_back(static_cast<std::uint64_t>(frameOf(i).stamp_ns));
