@@ -33,7 +33,7 @@ end() {
 # For four cameras, whose trackers multi_camera.launch loads into /manager.
 generateForLaunched() {
   local trackers
-  start roslaunch tet_line_tracker multi_camera.launch cameras:="load0 load1 load2 load3" image:=image imu:=/imu \
+  start roslaunch tet_line_tracker multi_camera.launch cameras:="launched0 launched1 launched2 launched3" image:=image imu:=/imu \
     manager:=/manager start_manager:=false
   trackers=$started
   generate --cameras 4 --launched "$@"

@@ -192,7 +192,10 @@ int run(const Arguments& arguments) {
   const int pid = here ? getpid() : arguments.manager_pid;
   std::vector<std::string> names;
   names.reserve(static_cast<std::size_t>(arguments.cameras));
-  for (int i = 0; i < arguments.cameras; ++i) names.push_back("load" + std::to_string(i));
+  // Parameters of what was launched stay on the server below its name, where other trackers must not find
+  // them.
+  const std::string stem = arguments.launched ? "launched" : "load";
+  for (int i = 0; i < arguments.cameras; ++i) names.push_back(stem + std::to_string(i));
   ros::AsyncSpinner spinner(1);
   spinner.start();
   const Trackers trackers(names, here, arguments.launched);
