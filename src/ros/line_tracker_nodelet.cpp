@@ -265,13 +265,13 @@ void LineTrackerNodelet::track(const sensor_msgs::Image& image) {
   }
 }
 
-/// Without tracker_mutex_, so that a reset need not wait with the image. An image that would cost another one
-/// its place in the queue does not wait.
+/// Without tracker_mutex_, so that a reset need not wait with the image. An image does not wait so long that
+/// another one may lose its place in the queue while it is tracked.
 template <class Sample>
 void LineTrackerNodelet::await(MotionSensor<Sample>& sensor, const ros::Subscriber& subscriber,
                                std::int64_t stamp_ns, double patience_s, const std::string& camera_frame) {
   if (!sensor.input.frame() && subscriber.getNumPublishers() == 0) return;
-  const auto crowded = [this] { return queue_->isFull(); };
+  const auto crowded = [this] { return queue_->isHalfFull(); };
   if (sensor.extrinsic.isHopeful() && !sensor.input.waitFor(stamp_ns, patience_s, crowded)) {
     if (sensor.extrinsic.pose()) diagnostics_.addWithoutSamples();
   }

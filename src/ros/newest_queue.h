@@ -57,10 +57,10 @@ class NewestQueue {
     arrived_.notify_all();
   }
 
-  /// Whether the next item takes the place of the oldest one.
-  bool isFull() const {
+  /// Whether half of its places are taken: the others are for the items that come while one is worked on.
+  bool isHalfFull() const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return items_.size() >= capacity_;
+    return 2 * items_.size() >= capacity_;
   }
 
   /// Items that gave way to newer ones since construction.

@@ -29,7 +29,6 @@ TEST(NewestQueue, HoldsNoMoreThanItsNewCapacity) {
   NewestQueue<int> queue(4);
   for (int i = 0; i < 4; ++i) queue.push(i);
   queue.setCapacity(2);
-  EXPECT_TRUE(queue.isFull());
   queue.push(4);
   EXPECT_EQ(queue.replaced(), 3U);
   EXPECT_EQ(queue.pop(), 3);
@@ -63,15 +62,23 @@ TEST(NewestQueue, GivesEveryItemOnceOrCountsIt) {
   EXPECT_TRUE(std::is_sorted(taken.begin(), taken.end()));
 }
 
-TEST(NewestQueue, IsFullWhenTheNextItemReplacesOne) {
-  NewestQueue<int> queue(2);
-  queue.push(1);
-  EXPECT_FALSE(queue.isFull());
+TEST(NewestQueue, IsHalfFullWhileThereIsRoomForAsManyItemsAsWait) {
+  NewestQueue<int> queue(5);
+  for (int i = 0; i < 2; ++i) queue.push(i);
+  EXPECT_FALSE(queue.isHalfFull());
   queue.push(2);
-  EXPECT_TRUE(queue.isFull());
-  EXPECT_EQ(queue.replaced(), 0U);
+  EXPECT_TRUE(queue.isHalfFull());
   queue.pop();
-  EXPECT_FALSE(queue.isFull());
+  EXPECT_FALSE(queue.isHalfFull());
+  queue.setCapacity(4);
+  EXPECT_TRUE(queue.isHalfFull());
+}
+
+TEST(NewestQueue, WithOnePlaceIsHalfFullWhenItIsTaken) {
+  NewestQueue<int> queue(1);
+  EXPECT_FALSE(queue.isHalfFull());
+  queue.push(1);
+  EXPECT_TRUE(queue.isHalfFull());
 }
 
 }  // namespace
