@@ -20,17 +20,20 @@ answerHelp "$@"
 readers=(calibration_file camera_info image_message line_stream line_tracker text_table)
 buildSanitized "${readers[@]/#/fuzz_}"
 cd "$sanitized"
-for reader in "${readers[@]}"; do
-  program=$sanitized/devel/lib/tet_line_tracker/fuzz_$reader
-  seeds=$project/test/fuzz/seeds/$reader
+export guided sanitized project
+# fuzz READER SECONDS [RANDOM_SEED]
+fuzz() {
+  local program=$sanitized/devel/lib/tet_line_tracker/fuzz_$1 seeds=$project/test/fuzz/seeds/$1 corpus=$sanitized/corpus/$1
   if [ ! -e "$seeds" ]; then seeds=$(mktemp -d); fi
-  if $guided; then
-    corpus=$sanitized/corpus/$reader
-    mkdir -p "$corpus"
-    "$program" "$corpus" "$seeds" -max_total_time="${1:-60}" -max_len=16384 -timeout=60 -rss_limit_mb=4096 -verbosity=0 -print_final_stats=1 \
-      ${2:+-seed="$2"} </dev/null >"$reader.log" 2>&1 || { tail -n 40 "$reader.log" >&2; fail "fuzz_$reader found something (the input is in $sanitized)"; }
-    echo "fuzz_$reader: $(sed -n 's/^stat::number_of_executed_units: *//p' "$reader.log") inputs, $(find "$corpus" -type f | wc -l) that reach something new, nothing found"
-  else
-    "$program" "${1:-60}" "$seeds" ${2:+"$2"} </dev/null
+  if ! $guided; then
+    "$program" "$2" "$seeds" ${3:+"$3"} </dev/null
+    return
   fi
-done
+  mkdir -p "$corpus"
+  "$program" "$corpus" "$seeds" -max_total_time="$2" -max_len=16384 -timeout=60 -rss_limit_mb=4096 -verbosity=0 -print_final_stats=1 \
+    ${3:+-seed="$3"} </dev/null >"$1.log" 2>&1 ||
+    { tail -n 40 "$1.log" >&2; echo "fuzz_$1 found something (the input is in $sanitized)" >&2; return 1; }
+  echo "fuzz_$1: $(sed -n 's/^stat::number_of_executed_units: *//p' "$1.log") inputs, $(find "$corpus" -type f | wc -l) that reach something new, nothing found"
+}
+export -f fuzz
+printf '%s\n' "${readers[@]}" | xargs -P "$(nproc)" -I{} bash -c 'fuzz "$@"' fuzz {} "${1:-60}" ${2:+"$2"} || fail "a fuzzer found something"
