@@ -21,6 +21,8 @@ readers=(calibration_file camera_info image_message line_stream line_tracker tex
 buildSanitized "${readers[@]/#/fuzz_}"
 cd "$sanitized"
 export guided sanitized project
+# So that the drivers can save the input.
+UBSAN_OPTIONS+=:abort_on_error=1
 # fuzz READER SECONDS [RANDOM_SEED]
 fuzz() {
   local program=$sanitized/devel/lib/tet_line_tracker/fuzz_$1 seeds=$project/test/fuzz/seeds/$1 corpus=$sanitized/corpus/$1

@@ -105,7 +105,7 @@ class Mutator {
 
 }  // namespace
 
-// Called by AddressSanitizer before it ends the process.
+// Called by AddressSanitizer before it ends the process; UndefinedBehaviorSanitizer aborts (fuzz.sh).
 extern "C" void __sanitizer_set_death_callback(void (*callback)()) __attribute__((weak));
 
 int main(int argc, char** argv) {

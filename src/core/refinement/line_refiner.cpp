@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/clamp.h"
 #include "kernels/kernels.h"
 
 namespace tet_line_tracker {
@@ -44,9 +45,10 @@ struct Samples {
   int count{0};
 };
 
+constexpr float kFarOutside = 1e6F;  // no image reaches so far [px]
+
 /// Whether the pixels of `line` can be counted: it is finite, longer than a pixel, and not too far outside.
 bool canBeSampled(const LineSegment& line) {
-  constexpr float kFarOutside = 1e6F;
   return (line.start.array().abs() < kFarOutside).all() && (line.end.array().abs() < kFarOutside).all() &&
          line.length() > 1.0F;
 }
@@ -118,11 +120,12 @@ class ProfileSampler {
   }
 
  private:
-  /// Precondition: canBeSampled(). Rounds what lies in an image or not too far left of it; what is farther
-  /// stays outside.
+  /// Rounds what lies in an image or not too far left of it; what is farther, as a bend may be that goes on
+  /// beyond its ends, stays outside.
   static int nearestPixel(float place) {
     constexpr int kShift = 1 << 12;
-    return static_cast<int>(place + (static_cast<float>(kShift) + 0.5F)) - kShift;
+    const float near = clampOrLow(place, -static_cast<float>(kShift), kFarOutside);
+    return static_cast<int>(near + (static_cast<float>(kShift) + 0.5F)) - kShift;
   }
 
   using Floats = std::array<float, Samples::kCapacity>;

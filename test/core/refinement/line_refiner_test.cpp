@@ -199,6 +199,19 @@ TEST(LineRefiner, ALineThatIsNowhereComesBackWithoutSupport) {
   }
 }
 
+// Found by fuzzing: beyond the ends of the chord such a bend is no number any more.
+TEST(LineRefiner, ALineWhoseBendLeavesTheImageComesBackWithoutSupport) {
+  const LineRefiner refiner(LineRefinerParameters{});
+  const cv::Mat image = edgeImage(0.0F, 60.0F, 0.0F, kMiddle);
+  for (const float c : {9000.0F, -9000.0F}) {
+    LineCurve line(LineSegment{{40.0F, 40.0F}, {160.0F, 99.6F}});
+    line.bend.c.fill(c);
+    EXPECT_EQ(refiner.contrastOf(image, line), 0.0F);
+    EXPECT_EQ(refiner.fit(image, line, 60.0F).support, 0.0F);
+    EXPECT_EQ(refiner.reachOf(image, line, 60.0F, 10.0F), 0.0F);
+  }
+}
+
 TEST(LineRefiner, NoiseIsMoreThanHalfOfTheVarianceOfAFaintEdgeAndNothingOfABlur) {
   const LineRefiner refiner(LineRefinerParameters{});
   const LineSegment truth = along(0.3F, 100.0F, kMiddle);
