@@ -36,7 +36,7 @@ class FrameSequence {
   StreamGate::Dropped dropped_before_epoch_;
 };
 
-/// Sets the normalised endpoints of all lines; NaN where `camera` is nullptr or cannot normalise a pixel.
+/// Sets the normalised endpoints of all lines; NaN where `camera` is nullptr or cannot normalise both.
 void normalizeEndpoints(const CameraModel* camera, std::vector<TrackedLine>& lines);
 /// The same for the lines alone whose ends are not normalised.
 void normalizeMissingEndpoints(const CameraModel* camera, std::vector<TrackedLine>& lines);

@@ -1,5 +1,6 @@
 #include "tet_line_tracker/tracking/frame_sequence.h"
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -45,12 +46,14 @@ std::size_t FrameSequence::reset() {
 namespace {
 
 void normalize(const CameraModel* camera, TrackedLine& line) {
-  const Eigen::Vector2d unknown = TrackedLine{}.start_normalized;
-  const auto normalized = [&](const Eigen::Vector2f& pixel) -> Eigen::Vector2d {
-    return camera != nullptr ? camera->normalize(pixel.cast<double>()).value_or(unknown) : unknown;
-  };
-  line.start_normalized = normalized(line.segment.start);
-  line.end_normalized = normalized(line.segment.end);
+  line.forgetNormalized();
+  if (camera == nullptr) return;
+  const std::optional<Eigen::Vector2d> start = camera->normalize(line.segment.start.cast<double>());
+  const std::optional<Eigen::Vector2d> end = camera->normalize(line.segment.end.cast<double>());
+  // Where a polynomial turns back, a lens has pixels without a ray within its field of view too.
+  if (!start || !end) return;
+  line.start_normalized = *start;
+  line.end_normalized = *end;
 }
 
 }  // namespace

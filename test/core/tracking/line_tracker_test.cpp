@@ -5,12 +5,14 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
 #include "synthetic_images.h"
 #include "tet_line_tracker/detection/line_detector.h"
+#include "tet_line_tracker/tracking/frame_sequence.h"
 
 namespace tet_line_tracker {
 namespace {
@@ -181,6 +183,19 @@ std::shared_ptr<const CameraModel> wideCamera() {
   calibration.cx = 319.5;
   calibration.cy = 199.5;
   return makeCameraModel(calibration);
+}
+
+TEST(NormalizeEndpoints, ALineHasBothNormalizedEndsOrNone) {
+  std::vector<TrackedLine> lines(2);
+  lines[0].segment = {{300.0F, 200.0F}, {340.0F, 200.0F}};
+  lines[1].segment = {{300.0F, 200.0F}, {639.0F, 200.0F}};
+  const std::shared_ptr<const CameraModel> camera = wideCamera();
+  ASSERT_FALSE(camera->normalize({639.0, 200.0}).has_value());
+  normalizeEndpoints(camera.get(), lines);
+  EXPECT_TRUE(lines[0].start_normalized.allFinite() && lines[0].end_normalized.allFinite());
+  EXPECT_TRUE(lines[1].start_normalized.hasNaN() && lines[1].end_normalized.hasNaN());
+  normalizeEndpoints(nullptr, lines);
+  EXPECT_TRUE(lines[0].start_normalized.hasNaN() && lines[0].end_normalized.hasNaN());
 }
 
 TEST(LineTracker, AWideLensCutsLinesWhereTheyCannotBeNormalizedAndCountsThem) {
