@@ -15,7 +15,7 @@ namespace tet_line_tracker {
 struct NodeParameters {
   double publish_rate{0.0};  ///< messages per second of image stamps, 0..1000 [Hz]; 0: one for every image
   double mono16_scale{1.0 / 256.0};  ///< 8-bit gray per step of a 16-bit image, 1e-6..255
-  int queue_size{5};                 ///< images that wait for their turn at most, 1..1000
+  int queue_size{10};                ///< images that wait for their turn at most, 1..1000
   bool marker_ids{false};            ///< ids beside the lines of ~markers
   bool debug_image_ids{true};        ///< ids on ~debug_image, where there is room
   double debug_image_rate{30.0};     ///< debug images per second of image stamps, 0..1000 [Hz]; 0: all
