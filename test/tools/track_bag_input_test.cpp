@@ -281,8 +281,9 @@ TEST_F(TrackBagInput, ACalibrationOfTheFullImageIsTakenThroughBinningAndRegionOf
   const ToolRun run = track();
   EXPECT_EQ(run.status, 0) << run.errors;
   EXPECT_EQ(normalized(), std::vector<bool>(kImages, true)) << run.errors;
+  const auto binned = lines();
   for (int i = 0; i < kImages; ++i) {
-    const Line& seen = lines().at(static_cast<std::size_t>(i)).message.lines.at(0);
+    const Line& seen = binned.at(static_cast<std::size_t>(i)).message.lines.at(0);
     const Line& expected = plain.at(static_cast<std::size_t>(i)).message.lines.at(0);
     EXPECT_EQ(seen.start_normalized, expected.start_normalized) << i;
     EXPECT_EQ(seen.end_normalized, expected.end_normalized) << i;
