@@ -199,7 +199,8 @@ TEST(LineRefiner, ALineThatIsNowhereComesBackWithoutSupport) {
   }
 }
 
-// Found by fuzzing: beyond the ends of the chord such a bend is no number any more.
+// Found by fuzzing: beyond the ends of the chord such a bend is no number any more, which
+// UndefinedBehaviorSanitizer notices (scripts/sanitize.sh).
 TEST(LineRefiner, ALineWhoseBendLeavesTheImageComesBackWithoutSupport) {
   const LineRefiner refiner(LineRefinerParameters{});
   const cv::Mat image = edgeImage(0.0F, 60.0F, 0.0F, kMiddle);
